@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Embeds a GLSL file as a C object and compiles every permutation of it.
+
+    embed_glsl.py ROOT INPUT HEADER DEPFILE GLSLANG [DEFINES]...
+
+ROOT is the source root: the shader is named by its path below it. HEADER gets a
+`static const fg_gl_shader <file>_<stage>` with the includes expanded. Each
+DEFINES ("A=1;B", "" for none) is one permutation, which GLSLANG must accept;
+without any the shader is compiled once, plain.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+
+def expand(path, root, seen):
+    """The lines of `path` with `#include "file"` replaced, each file once. A path is looked for
+    beside the including file, then below the root."""
+    seen.append(path)
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        include = re.match(r'\s*#include\s+"([^"]+)"', line)
+        if not include:
+            yield line
+            continue
+        target = path.parent / include[1]
+        if not target.exists():
+            target = root / include[1]
+        if not target.exists():
+            sys.exit(f'{path}:{number}: no file {include[1]}')
+        target = target.resolve()
+        if target not in seen:
+            yield '#line 1'
+            yield from expand(target, root, seen)
+            yield f'#line {number + 1}'
+
+
+def with_defines(text, defines):
+    head, _, body = text.partition('\n')
+    lines = [f'#define {d.replace("=", " ", 1)}' for d in defines.split(';') if d]
+    return '\n'.join([head, *lines, '#line 2', body])
+
+
+def main():
+    root, source, header, depfile, glslang, *permutations = sys.argv[1:]
+    root, source = pathlib.Path(root).resolve(), pathlib.Path(source).resolve()
+    seen = []
+    text = '\n'.join(expand(source, root, seen)) + '\n'
+    if not text.startswith('#version 450 core\n'):
+        sys.exit(f'{source}:1: the first line must be "#version 450 core"')
+    for defines in permutations or ['']:
+        with tempfile.NamedTemporaryFile('w', suffix=source.suffix) as f:
+            f.write(with_defines(text, defines))
+            f.flush()
+            done = subprocess.run([glslang, '--quiet', f.name], capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(f'{source} [{defines}]:\n{done.stdout.replace(f.name, source.name)}{done.stderr}')
+
+    symbol = re.sub(r'\W', '_', source.name)
+    codes = ','.join(map(str, text.encode())) + ',0'
+    pathlib.Path(header).write_text(
+        f'#include <fg/gl.h>\n'
+        f'static const char {symbol}_text[] = {{{codes}}};\n'
+        f'static const fg_gl_shader {symbol} = {{ "{source.relative_to(root)}", {symbol}_text }};\n')
+    pathlib.Path(depfile).write_text(f'{header}: {" ".join(map(str, seen))}\n')
+
+
+main()

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#ifndef FG_GL_H
+#define FG_GL_H
+
+#include <fg/device.h>
+
+FG_BEGIN
+
+// OpenGL 4.5 core: a headless context, the gl device, programs.
+//
+//     fg_gl_context *ctx;
+//     fg_device *dev;
+//     fg_gl_context_create(&(fg_gl_context_desc){ .log = &log }, &ctx);
+//     fg_gl_device_create(&(fg_gl_device_desc){ .log = &log }, &dev);
+//     ... fg_graph_create(&(fg_graph_desc){ .device = dev }) ...
+//     fg_device_destroy(dev);
+//     fg_gl_context_destroy(ctx);
+//
+// A host with a context of its own needs only the device. GL entry points come
+// from libepoxy; callbacks may include <epoxy/gl.h>.
+
+// ---- headless context ---------------------------------------------------------
+
+typedef struct fg_gl_context fg_gl_context;
+
+typedef struct fg_gl_context_desc {
+    const fg_log *log;
+    int device; // 0: the first that works, real GPUs first; n > 0: the n-th of fg_gl_device_info()
+    bool debug; // a debug context
+} fg_gl_context_desc;
+
+// Creates an EGL context without a surface and makes it current.
+// Errors: FG_ERR_UNSUPPORTED, no EGL device gives OpenGL 4.5 core; FG_ERR_INVALID, no such device.
+FG_API FG_NODISCARD fg_status fg_gl_context_create(const fg_gl_context_desc *desc,
+                                                   fg_gl_context **out);
+FG_API void fg_gl_context_destroy(fg_gl_context *ctx); // accepts NULL
+FG_API FG_NODISCARD fg_status fg_gl_context_make_current(fg_gl_context *ctx);
+
+// Describes EGL device n (from 1): renderer and version if a context can be had.
+// false past the end. Strings are cut to fit.
+typedef struct fg_gl_device_info {
+    char name[128];     // EGL's name: driver, DRM node or "surfaceless"
+    char renderer[128]; // "" if it gives no OpenGL 4.5 core
+    char version[128];
+    bool software;
+} fg_gl_device_info;
+FG_API bool fg_gl_get_device_info(int n, fg_gl_device_info *info);
+
+// ---- device -----------------------------------------------------------------------
+
+typedef struct fg_gl_device_desc {
+    const fg_log *log;
+    const char *shader_dir; // Development: read shaders below this folder (by the names they were
+                            // embedded under) and rebuild on change. NULL: the embedded ones.
+    const char *cache_dir;  // Program binaries, where the driver has them. NULL: none.
+} fg_gl_device_desc;
+
+// For the context that is current. If that is a debug context, driver messages go
+// to the log. Sets glClipControl(LOWER_LEFT, ZERO_TO_ONE) and seamless cube maps.
+// Errors: FG_ERR_UNSUPPORTED without OpenGL 4.5; FG_ERR_MEMORY.
+FG_API FG_NODISCARD fg_status fg_gl_device_create(const fg_gl_device_desc *desc, fg_device **out);
+
+// GL errors and high-severity messages seen since creation. Tests demand 0.
+FG_API int fg_gl_error_count(const fg_device *dev);
+FG_API const char *fg_gl_renderer(const fg_device *dev);
+FG_API const char *fg_gl_version(const fg_device *dev);
+
+// Waits for the GPU (benchmarks, captures; never in a frame), so that the timings
+// of the last frame are there. FG_ERR_DEVICE if the context is lost.
+FG_API FG_NODISCARD fg_status fg_gl_finish(fg_device *dev);
+
+// ---- programs -----------------------------------------------------------------------
+
+// A shader as embedded by the build: static, shared by address.
+typedef struct fg_gl_shader {
+    const char *name; // path in the source tree, e.g. "passes/gbuffer/gbuffer.vert"; the extension
+                      // is the stage
+    const char *text; // includes expanded; first line "#version 450 core"
+} fg_gl_shader;
+
+typedef struct fg_gl_program_desc {
+    const fg_gl_shader *shaders[3]; // ends at NULL: {comp} or {vert, frag}
+    const char *defines;            // "SHADOWS=1;LIGHTS=4": inserted after #version. NULL: none.
+} fg_gl_program_desc;
+
+// The program of this permutation, built on first use and then looked up without
+// allocation; 0 and a log line with the driver's message if it does not build. The
+// device owns it.
+FG_API uint32_t fg_gl_program(fg_device *dev, const fg_gl_program_desc *desc);
+
+// ---- helpers for callbacks ------------------------------------------------------------
+
+typedef enum fg_gl_filter {
+    FG_GL_NEAREST = 0,
+    FG_GL_LINEAR,
+    FG_GL_LINEAR_MIPMAP,
+    FG_GL_SHADOW, // linear, compare GREATER_OR_EQUAL (reversed depth)
+} fg_gl_filter;
+
+// Bind what the pass declared; fg_run_object() refuses the rest.
+FG_API void fg_gl_sample(const fg_run *run, int unit, fg_res tex, fg_gl_filter filter); // clamps
+FG_API void fg_gl_image(const fg_run *run, int unit, fg_res tex, int mip, unsigned access,
+                        fg_format format);
+FG_API void fg_gl_storage(const fg_run *run, int binding, fg_res buf);
+FG_API void fg_gl_uniform(const fg_run *run, int binding, fg_res buf);
+
+// glDispatchCompute over `width` x `height` in groups of `group_x` x `group_y`, rounded up.
+FG_API void fg_gl_dispatch_2d(int width, int height, int group_x, int group_y);
+// A triangle over the viewport without vertex buffers (gl_VertexID 0..2).
+FG_API void fg_gl_fullscreen(const fg_run *run);
+
+FG_END
+
+#endif // FG_GL_H

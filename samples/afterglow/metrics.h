@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#ifndef METRICS_H
+#define METRICS_H
+
+#include "image.h"
+
+FG_BEGIN
+
+// Error of `a` against the reference `b`, over all channels of all pixels, linear, before any
+// tone curve. Non-finite pixels of either are counted and then left out. Sums in double.
+typedef struct metrics {
+    double rmse;
+    double rmse_rms;     // over the reference's RMS: what we call relative RMSE
+    double rmse_max;     // over the reference's maximum
+    double relmse;       // mean of d^2 / (b^2 + 0.01 mean(b)^2), the worst 0.1 % trimmed
+    double smape;        // mean of 2 |d| / (|a| + |b|), 0 where both are 0
+    double bias;         // mean of a - b
+    double energy_ratio; // sum(a) / sum(b); 1 if both are 0, infinite if only b is
+    double p99;          // 99th percentile of |d|
+    long nonfinite;      // pixels
+} metrics;
+
+// FG_ERR_INVALID if the sizes differ; FG_ERR_MEMORY.
+FG_NODISCARD fg_status metrics_compare(const fg_log *log, const image *a, const image *b,
+                                       metrics *out);
+
+// A signed error map: red where `a` is too bright, blue where too dark, full colour at `scale`.
+FG_NODISCARD fg_status metrics_error_map(const fg_log *log, const image *a, const image *b,
+                                         double scale, image *out);
+
+FG_END
+
+#endif // METRICS_H

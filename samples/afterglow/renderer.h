@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#ifndef RENDERER_H
+#define RENDERER_H
+
+#include "image.h"
+
+#include <fg/gl.h>
+#include <gi/registry.h>
+
+FG_BEGIN
+
+// A frame of a scene through the graph: G-buffer, shadows, direct light, a plugin, compose,
+// tone curve. What render, sequence, report, stability and view are all made of.
+typedef enum renderer_layer {
+    LAYER_FINAL = 0, // tone mapped, linear display values in [0, 1]
+    LAYER_RADIANCE,  // W/(m^2 sr), all light
+    LAYER_DIRECT,
+    LAYER_INDIRECT,  // albedo x E / pi + glossy
+    LAYER_ALBEDO,
+    LAYER_NORMAL,
+    LAYER_POSITION, // world; 0 where nothing is
+    LAYER_COUNT,
+} renderer_layer;
+extern const char *const renderer_layer_names[LAYER_COUNT];
+
+typedef struct renderer renderer;
+
+typedef struct renderer_desc {
+    const fg_log *log;
+    fg_device *device; // a gl device, current; borrowed, as all below
+    ag_scene *scene;   // the renderer sets its time
+    const ag_camera *camera;   // copied; NULL: follows the scene's first, else a framing one
+    int camera_index;          // with camera NULL: of the scene's (it may move)
+    int width, height;
+    const gi_plugin *plugin;   // NULL: direct light alone
+    const gi_value *values;    // copied; NULL: defaults
+    float exposure;            // radiance of 1 after exposure is a middle-bright white; 0: 1
+    unsigned layers;           // bits 1 << layer that can be read back; 0: final alone
+    bool needs_all;            // every feature counts as present: nothing is left out
+    unsigned debug;            // fg_debug bits
+    uint64_t seed;
+    void (*inspect)(void *user, const fg_written *written);
+    void *inspect_user;
+} renderer_desc;
+
+FG_NODISCARD fg_status renderer_create(const renderer_desc *desc, renderer **out);
+void renderer_destroy(renderer *r); // accepts NULL
+
+// Between two frames. The old plugin is destroyed first; if the new one fails in create the
+// frame goes on with direct light and the status says why.
+FG_NODISCARD fg_status renderer_set_plugin(renderer *r, const gi_plugin *plugin,
+                                           const gi_value *values);
+FG_NODISCARD fg_status renderer_resize(renderer *r, int width, int height);
+
+// Sets the scene to `time` and runs one frame. Never waits for the GPU.
+FG_NODISCARD fg_status renderer_frame(renderer *r, double time);
+
+// Reads a layer of the last frame; waits.
+FG_NODISCARD fg_status renderer_read(renderer *r, renderer_layer layer, image *out);
+
+fg_graph *renderer_graph(renderer *r);
+int renderer_counters(renderer *r, gi_counter *out, int max);
+
+FG_END
+
+#endif // RENDERER_H
