@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# Builds everything and runs every test: the release build on whatever GL there is, the CPU side
+# again under ASan and UBSan, the frame graph on its own, the installed package, the linters.
+# Ends with "N passed, N failed". A skipped test is a failed one.
+#
+#     ./test.sh            everything
+#     ./test.sh NAME...    only these steps: build sanitize alone install format tidy cppcheck
+set -u
+cd "$(dirname "$0")"
+.ci/setup test || exit 1
+
+passed=0 failed=0
+steps="${*:-build sanitize alone install format tidy cppcheck}"
+jobs=$(nproc)
+
+report() { # name status
+    if [ "$2" = 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+    [ "$2" = 0 ] && echo "ok    $1" || echo "FAIL  $1"
+}
+
+step() { # name command... : one check
+    local name=$1 log
+    shift
+    log=$(mktemp)
+    "$@" >"$log" 2>&1
+    local status=$?
+    [ "$status" = 0 ] || tail -n 60 "$log"
+    rm -f "$log"
+    report "$name" "$status"
+    return "$status"
+}
+
+configure() { # dir options...
+    local dir=$1
+    shift
+    if [ -f "$dir/build.ninja" ]; then
+        meson configure "$dir" "$@"
+    else
+        meson setup "$dir" "$@"
+    fi
+}
+
+build_in() { # dir options...
+    configure "$@" && ninja -C "$1"
+}
+
+meson_tests() { # dir label options... : every meson test is one check
+    local dir=$1 label=$2 name result
+    shift 2
+    rm -f "$dir/meson-logs/testlog.json"
+    meson test -C "$dir" --no-rebuild --print-errorlogs "$@"
+    if [ ! -s "$dir/meson-logs/testlog.json" ]; then
+        report "$label: no test ran" 1
+        return
+    fi
+    while read -r result name; do
+        [ "$result" = OK ]
+        report "$label: $name" $?
+    done < <(python3 -c '
+import json, sys
+for line in open(sys.argv[1]):
+    test = json.loads(line)
+    print(test["result"], test["name"])' "$dir/meson-logs/testlog.json")
+}
+
+wanted() { [[ " $steps " == *" $1 "* ]]; }
+
+sources() { git ls-files '*.c' '*.h' '*.cpp' 2>/dev/null || find framegraph passes plugins samples tests -name '*.[ch]' -o -name '*.cpp'; }
+
+alone() { # the frame graph with nothing but libepoxy and EGL
+    build_in build-alone -Dpasses=false -Dwerror=true
+}
+
+installed() { # a host outside the tree, built against the installed package
+    local prefix=$PWD/build-install/prefix
+    rm -rf build-install && mkdir -p build-install
+    DESTDIR= meson install -C build --no-rebuild --destdir "$prefix" >/dev/null || return 1
+    local pc
+    pc=$(dirname "$(find "$prefix" -name afterglow-framegraph.pc)")
+    cp samples/embed/host_graph.c build-install/
+    export PKG_CONFIG_PATH=$pc PKG_CONFIG_SYSROOT_DIR=$prefix
+    cc -std=c11 -D_GNU_SOURCE build-install/host_graph.c -o build-install/host_graph \
+        $(pkg-config --cflags --libs afterglow-framegraph) -lm || return 1
+    LD_LIBRARY_PATH=$(dirname "$pc") build-install/host_graph
+}
+
+tidy() {
+    sources | grep '\.c$' | grep -v '^tests/fuzz' |
+        xargs -P "$jobs" -n 4 clang-tidy -p build --quiet 2>/dev/null
+}
+
+if wanted build && step "build" build_in build -Dwerror=true; then
+    meson_tests build test
+fi
+if wanted sanitize && step "build with sanitizers" build_in build-sanitize -Dwerror=true \
+    -Db_sanitize=address,undefined -Db_lundef=false; then
+    export ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1
+    export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+    meson_tests build-sanitize sanitized --suite graph --suite unit --suite numerics \
+        --timeout-multiplier 4
+    unset ASAN_OPTIONS UBSAN_OPTIONS
+fi
+wanted alone && step "the frame graph alone" alone && meson_tests build-alone alone
+wanted install && step "a host against the installed package" installed
+wanted format && step "clang-format" sh -c "git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format --dry-run --Werror"
+wanted tidy && step "clang-tidy" tidy
+wanted cppcheck && step "cppcheck" sh -c "cppcheck -j $jobs --quiet --std=c11 --language=c \
+    --enable=warning,portability --inline-suppr --error-exitcode=1 --suppressions-list=.ci/cppcheck.txt \
+    -I framegraph/include -I passes/include -I plugins/include -I . framegraph passes plugins samples"
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
