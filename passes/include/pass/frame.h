@@ -15,7 +15,7 @@ FG_BEGIN
 // depend on where in the world the scene stands; host code adds `origin` back.
 
 // The camera of one frame.
-typedef struct ag_view {
+struct ag_view {
     int width, height;
     double origin[3];         // the eye in the world: render space = world - origin
     float view_proj[16];      // render space to clip; reversed Z, infinite far plane: depth is
@@ -24,7 +24,7 @@ typedef struct ag_view {
     float forward[3];         // unit
     float znear;
     bool orthographic;
-} ag_view;
+};
 
 // Errors: FG_ERR_INVALID: a size below 1, a field of view outside (0, pi), znear <= 0.
 FG_API FG_NODISCARD fg_status ag_view_from_camera(const fg_log *log, const ag_camera *camera,

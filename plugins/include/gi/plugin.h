@@ -69,8 +69,7 @@ typedef struct gi_frame {
 typedef struct gi_inputs {
     int width, height;
     ag_gbuffer gbuffer;
-    ag_scene_res scene;  // vertices, instances, materials, lights, as graph resources
-    fg_res view;         // uniform buffer, layout in pass/view_shared.h
+    ag_scene_res scene;  // view, vertices, instances, materials, lights, as graph resources
     fg_res direct;       // RGBA32F: radiance of direct light and emission, W/(m^2 sr)
 } gi_inputs;
 
