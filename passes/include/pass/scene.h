@@ -49,7 +49,8 @@ typedef struct ag_instance {
 typedef struct ag_texture_ref {
     int texture; // -1: none
     int uv;      // 0 or 1
-    float transform[6]; // KHR_texture_transform: u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5
+    float transform[6]; // KHR_texture_transform: u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5;
+                        // all zero means identity
 } ag_texture_ref;
 
 typedef enum ag_alpha {
@@ -122,7 +123,7 @@ typedef enum ag_feature {
     AG_FEATURE_ALPHA_MASK = 1 << 1,
     AG_FEATURE_GLOSSY = 1 << 2,          // some metallic > 0 or roughness < 1
     AG_FEATURE_EMISSIVE = 1 << 3,        // some surface emits
-    AG_FEATURE_AREA_LIGHT = 1 << 4,      // some emissive surface is worth treating as a light
+    AG_FEATURE_AREA_LIGHT = 1 << 4,      // some emissive primitive gives at least 1 % of all flux
     AG_FEATURE_MOVING_GEOMETRY = 1 << 5,
     AG_FEATURE_MOVING_LIGHT = 1 << 6,
     AG_FEATURE_SEVERAL_LIGHTS = 1 << 7,
@@ -191,14 +192,15 @@ FG_API int ag_scene_find_camera(const ag_scene *scene, const char *name);
 // the origin.
 FG_API ag_camera ag_scene_framing_camera(const ag_scene *scene);
 
-// Replaces or adds lights and cameras from outside (command line, tests).
+// Adds a light or camera from outside (command line, tests), or replaces the one of the same
+// name. Errors: FG_ERR_INVALID, as ag_builder_light() refuses it; FG_ERR_MEMORY.
 FG_API FG_NODISCARD fg_status ag_scene_add_light(ag_scene *scene, const ag_light *light);
 FG_API FG_NODISCARD fg_status ag_scene_add_camera(ag_scene *scene, const ag_camera *camera);
 
 // ---- building by code ------------------------------------------------------------
 //
 // The loader and the built-in scenes both go through the builder, so that both get
-// the same checks. Indices returned are stable; -1 is a refused call: the first
+// the same checks. Indices returned are those of the scene's arrays; -1 is a refused call: the first
 // refusal sticks, its message goes to the log, ag_scene_build() returns its status.
 
 typedef struct ag_builder ag_builder;
@@ -208,15 +210,22 @@ FG_API void ag_builder_destroy(ag_builder *b);                             // ac
 
 // The default material: white, roughness 1, metallic 0, opaque, no textures.
 FG_API ag_material ag_default_material(void);
+// A point light at the origin, 1 W/sr, with a cone of 90 degrees where it is made a spot.
+FG_API ag_light ag_default_light(void);
+// At the origin, 45 degrees, znear 0.05.
+FG_API ag_camera ag_default_camera(void);
 
 // Pixels are copied. Width and height in [1, 16384].
 FG_API int ag_builder_texture(ag_builder *b, const ag_texture *texture);
+// Factors outside of [0, 1] are clamped with a warning; emission may not be negative.
 FG_API int ag_builder_material(ag_builder *b, const ag_material *material);
 
 // A mesh primitive, not yet shown. Arrays are copied; `indices` may be NULL (0, 1, 2, ...).
-// Normals of zero length are computed from the faces. Triangles with an index out of
-// range refuse the call; ones of zero area or with non-finite vertices are dropped
-// with a counted warning.
+// Normals of zero length are computed from the faces: where all are, each triangle gets
+// vertices of its own (flat, as glTF asks); where some are, those get the mean by area, with
+// a warning. Triangles with an index out of range refuse the call; ones of zero area or with
+// non-finite vertices are dropped with a counted warning, and so are unused vertices (without
+// one). Other non-finite values become 0 (colour: 1) with a warning.
 typedef struct ag_primitive_desc {
     const char *name; // for messages
     const ag_vertex *vertices;
@@ -240,7 +249,9 @@ typedef struct ag_node_desc {
 } ag_node_desc;
 FG_API int ag_builder_node(ag_builder *b, const ag_node_desc *desc);
 
-// Shows a primitive at a node; `skin` -1 or from ag_builder_skin().
+// Shows a primitive at a node; `skin` -1 or from ag_builder_skin(). A primitive that is shown
+// with several skins (or with and without) becomes several of the scene's; the first keeps
+// the index.
 FG_API void ag_builder_show(ag_builder *b, int node, int primitive, int skin);
 // Joints are nodes; `inverse_bind` is float[16 * count] or NULL (identities).
 FG_API int ag_builder_skin(ag_builder *b, const int *joints, int count, const float *inverse_bind);
@@ -266,7 +277,10 @@ typedef struct ag_channel_desc {
     int key_count;
     const float *times; // seconds, increasing, >= 0
     const float *values;
+    int animation; // [0, 1000000): channels of one number loop over their longest together
 } ag_channel_desc;
+// A path of a node that is driven already stays as it is, with a warning; a node with a matrix
+// cannot be driven.
 FG_API void ag_builder_channel(ag_builder *b, const ag_channel_desc *channel);
 
 // Finishes: `*out` owns everything, the builder stays to be destroyed. The scene
