@@ -10,10 +10,9 @@ FG_BEGIN
 // A global-illumination technique as a plugin of the frame graph:
 //
 //     const gi_plugin *p = gi_find(registry, "rsm");            // gi/registry.h
-//     gi_value *values = ...;                                   // gi_params_default(), gi_params_set()
-//     void *self;
-//     p->create(&(gi_env){ .device = dev, .scene = scene }, values, &self);
-//     for each frame:
+//     gi_value *values = ...;                                   // gi_params_default(),
+//     gi_params_set() void *self; p->create(&(gi_env){ .device = dev, .scene = scene }, values,
+//     &self); for each frame:
 //         p->update(self, &frame);                              // CPU work
 //         fg_graph_begin(...); ... G-buffer ...
 //         p->declare(self, g, &in, &out);                       // passes "rsm.*"
@@ -53,9 +52,9 @@ typedef union gi_value {
 // ---- what a plugin gets ---------------------------------------------------------------
 
 typedef struct gi_env {
-    const fg_log *log;         // Optional. This and all below: borrowed for the life of the plugin.
-    fg_device *device;         // current on the calling thread
-    const ag_scene *scene;     // its time is the frame's when update() and the passes run
+    const fg_log *log;     // Optional. This and all below: borrowed for the life of the plugin.
+    fg_device *device;     // current on the calling thread
+    const ag_scene *scene; // its time is the frame's when update() and the passes run
     ag_gpu_scene *gpu_scene;
 } gi_env;
 
@@ -69,8 +68,8 @@ typedef struct gi_frame {
 typedef struct gi_inputs {
     int width, height;
     ag_gbuffer gbuffer;
-    ag_scene_res scene;  // view, vertices, instances, materials, lights, as graph resources
-    fg_res direct;       // RGBA32F: radiance of direct light and emission, W/(m^2 sr)
+    ag_scene_res scene; // view, vertices, instances, materials, lights, as graph resources
+    fg_res direct;      // RGBA32F: radiance of direct light and emission, W/(m^2 sr)
 } gi_inputs;
 
 // All of the inputs' size. A null handle: the technique gives none.
@@ -91,12 +90,12 @@ typedef struct gi_counter {
 // device's context. Call order: create; then a frame at a time update, declare (only when
 // something changed that declarations depend on), run; counters any time; destroy.
 typedef struct gi_plugin {
-    int abi;            // GI_PLUGIN_ABI
-    const char *name;   // the folder, e.g. "rsm"; also the prefix of its passes and resources
-    const char *source; // the paper: authors, title, venue, year
-    const char *summary; // one line: what it computes and what it leaves out
+    int abi;                // GI_PLUGIN_ABI
+    const char *name;       // the folder, e.g. "rsm"; also the prefix of its passes and resources
+    const char *source;     // the paper: authors, title, venue, year
+    const char *summary;    // one line: what it computes and what it leaves out
     const gi_param *params; // ends at a NULL name
-    uint64_t needs;     // scene features without which there is nothing to do, e.g. AG_FEATURE_LIGHT
+    uint64_t needs; // scene features without which there is nothing to do, e.g. AG_FEATURE_LIGHT
 
     // `values` has one entry per row of `params`, all in range, and is copied.
     // On failure `*self` is NULL and nothing is left allocated.
@@ -118,9 +117,24 @@ typedef struct gi_plugin {
     void (*destroy)(void *self);
 } gi_plugin;
 
-// A shared module exports this function by this name; its vtable is static.
+// A shared module gi_NAME.so exports one function, by this name; its vtable is static:
+//
+//     GI_PLUGIN_ENTRY(rsm)
+//     {
+//         return &plugin;
+//     }
 #define GI_PLUGIN_SYMBOL "gi_plugin_entry"
 typedef const gi_plugin *(*gi_plugin_entry_fn)(void);
+
+#ifdef GI_PLUGINS_LINKED // all techniques in one library: each entry has a name of its own
+#define GI_PLUGIN_ENTRY(name)                                                                      \
+    const gi_plugin *gi_plugin_entry_##name(void);                                                 \
+    const gi_plugin *gi_plugin_entry_##name(void)
+#else
+#define GI_PLUGIN_ENTRY(name)                                                                      \
+    FG_API const gi_plugin *gi_plugin_entry(void);                                                 \
+    FG_API const gi_plugin *gi_plugin_entry(void)
+#endif
 
 FG_END
 
