@@ -8,6 +8,7 @@ FG_BEGIN
 
 // Error of `a` against the reference `b`, over all channels of all pixels, linear, before any
 // tone curve. Non-finite pixels of either are counted and then left out. Sums in double.
+// A quotient by zero is 0 where nothing is off and infinite elsewhere.
 typedef struct metrics {
     double rmse;
     double rmse_rms;     // over the reference's RMS: what we call relative RMSE
@@ -16,7 +17,7 @@ typedef struct metrics {
     double smape;        // mean of 2 |d| / (|a| + |b|), 0 where both are 0
     double bias;         // mean of a - b
     double energy_ratio; // sum(a) / sum(b); 1 if both are 0, infinite if only b is
-    double p99;          // 99th percentile of |d|
+    double p99;          // 99th percentile of |d|: the least value that 99 % do not exceed
     long nonfinite;      // pixels
 } metrics;
 
@@ -24,7 +25,11 @@ typedef struct metrics {
 FG_NODISCARD fg_status metrics_compare(const fg_log *log, const image *a, const image *b,
                                        metrics *out);
 
-// A signed error map: red where `a` is too bright, blue where too dark, full colour at `scale`.
+// A signed error map on white: red where `a` is too bright, blue where too dark, full colour
+// where the channel that is farthest off is off by `scale`; green where either is not finite.
+//
+// Units:  scale as the pictures; finite, > 0.
+// Errors: FG_ERR_INVALID for another scale or sizes that differ; FG_ERR_MEMORY.
 FG_NODISCARD fg_status metrics_error_map(const fg_log *log, const image *a, const image *b,
                                          double scale, image *out);
 
