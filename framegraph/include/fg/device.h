@@ -27,10 +27,12 @@ typedef enum fg_barrier {
 
 typedef struct fg_attachment {
     uint32_t object; // 0: unused
-    int mip, layer, layers; // layers 1: one layer; more, or a whole cube or array: layered
-    bool layered;
+    int mip, layer, layers; // of a 3D texture, slices
+    bool layered;           // all layers, faces or slices; else `layer` alone, of an array, a cube
+                            // or a 3D texture
 } fg_attachment;
 
+// Entries of `color` from color_count on and a `depth` without object are not set.
 typedef struct fg_pass_begin {
     const char *name; // debug group and timer
     int timer;        // index in [0, timer count) given by the graph, see begin_frame
@@ -48,8 +50,10 @@ typedef struct fg_clear {
     uint32_t object;
     const fg_tex_desc *tex; // NULL: a buffer
     uint64_t size;          // bytes of a buffer
-    int mip, mips, layer, layers;
-    float value[4];
+    int mip, mips;          // levels
+    int layer, layers;      // array layers or cube faces; a 3D texture is cleared in its full depth
+                            // and says layer 0, layers 1
+    float value[4];         // rgba, or depth in [0]
     bool poison; // NaN in float formats, 0xcd bytes elsewhere; `value` is ignored
 } fg_clear;
 
@@ -64,7 +68,9 @@ typedef struct fg_device_ops {
     const char *name;
     const fg_device_limits *(*limits)(fg_device *dev);
 
-    // `desc` is resolved: no zero sizes or counts. FG_ERR_MEMORY when the API says so.
+    // `desc` is resolved: width, height, mips and samples are never 0, scale_log2 is, a cube map
+    // has its layers (6, 12, ...). depth 0 still means not 3D, layers 0 not an array.
+    // FG_ERR_MEMORY when the API says so.
     fg_status (*texture_create)(fg_device *dev, const char *label, const fg_tex_desc *desc,
                                 uint32_t *object);
     // A second texture over the memory of `of`, of the same size and shape and of a

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// Clears and memory barriers of a plan.
+//
+// OpenGL orders everything itself but the writes of shaders to images and storage
+// buffers. After such a write a consumer of any kind needs the barrier bit of its own
+// access; and such a write after any access needs its own bit, since "stores issued
+// after the barrier wait for all accesses before it". A barrier holds for all memory,
+// so per bit the position of the last one is all there is to know: an access needs a
+// barrier if what it depends on is newer.
+//
+// A frame follows itself: planning starts from the state that one frame leaves behind.
+#include "graph_priv.h"
+
+#include <string.h>
+
+enum { BARRIER_BITS = 9 };
+
+typedef struct barrier_state {
+    fg_graph *g;
+    const decl *d;
+    plan *p;
+    uint32_t at[BARRIER_BITS]; // position of the last barrier per bit; 0: none
+} barrier_state;
+
+static unsigned use_bit(unsigned use)
+{
+    static const uint16_t bits[] = {
+        [FG_USE_SAMPLED] = FG_BARRIER_SAMPLED,   [FG_USE_IMAGE] = FG_BARRIER_IMAGE,
+        [FG_USE_COLOR] = FG_BARRIER_ATTACHMENT,  [FG_USE_DEPTH] = FG_BARRIER_ATTACHMENT,
+        [FG_USE_STORAGE] = FG_BARRIER_STORAGE,   [FG_USE_UNIFORM] = FG_BARRIER_UNIFORM,
+        [FG_USE_VERTEX] = FG_BARRIER_VERTEX,     [FG_USE_INDEX] = FG_BARRIER_INDEX,
+        [FG_USE_INDIRECT] = FG_BARRIER_INDIRECT, [FG_USE_COPY] = FG_BARRIER_COPY,
+    };
+    return bits[use];
+}
+
+// ---- clears: what is read or kept before it is written -----------------------------------
+
+// A run of subresources of `io` that are in one state.
+typedef struct clear_run {
+    uint32_t layer, layers, mip;
+} clear_run;
+
+static bool add_clear(fg_graph *g, const io_rec *io, const clear_run *run, uint32_t value,
+                      uint8_t flags)
+{
+    plan *p = g->next;
+    if (!GROW(g, p->clear, p->clear_cap, p->clear_count + 1))
+        return false;
+    // Grows the clear before it where this one is the same layers of the next mip.
+    if (p->clear_count > p->step[p->step_count].clear) {
+        clear_rec *c = &p->clear[p->clear_count - 1];
+        if (c->res == io->res && c->flags == flags && c->value == value && c->layer == run->layer &&
+            c->layers == run->layers && c->mip + c->mips == (int) run->mip) {
+            c->mips++;
+            return true;
+        }
+    }
+    p->clear[p->clear_count++] = (clear_rec){
+        .res = io->res,
+        .value = value,
+        .layer = (uint16_t) run->layer,
+        .layers = (uint16_t) run->layers,
+        .mip = (uint8_t) run->mip,
+        .mips = 1,
+        .flags = flags,
+    };
+    return true;
+}
+
+// What happens to subresources that were (`before`) or were not yet written when the pass
+// of `io` comes.
+static uint8_t clear_flags(const io_rec *io, bool before)
+{
+    if (before)
+        return io->flags & IO_CLEAR ? CLEAR_IF_ON : 0;
+    return io->flags & IO_DISCARD ? CLEAR_IF_OFF : CLEAR_IF_ON | CLEAR_IF_OFF;
+}
+
+// Adds the clears that `io` needs and notes that it has been written.
+static bool clear_for(fg_graph *g, const io_rec *io, uint32_t value)
+{
+    plan *p = g->next;
+    const res_rec *r = &g->open->res[io->res];
+    res_plan *rp = &p->res[io->res];
+    const bool flat = r->depth > 0;
+    const uint32_t layers = flat ? 1 : sub_layers(r);
+    const uint32_t from = flat ? 0 : io->layer, to = flat ? 1u : (uint32_t) io->layer + io->layers;
+    uint8_t single = (uint8_t) (rp->written & 1);
+    uint8_t *written = layers * r->mips > 1 ? p->written + rp->written : &single;
+    for (uint32_t m = io->mip; m < (uint32_t) io->mip + io->mips; m++) {
+        uint8_t *row = written + m * layers;
+        for (uint32_t l = from, end; l < to; l = end) {
+            for (end = l + 1; end < to && row[end] == row[l];)
+                end++;
+            g->work += end - l;
+            const uint8_t flags = clear_flags(io, row[l]);
+            if (flags && !add_clear(g, io, &(clear_run){ l, end - l, m }, value, flags))
+                return false;
+        }
+        memset(row + from, 1, to - from);
+    }
+    if (layers * r->mips == 1)
+        rp->written = single;
+    return true;
+}
+
+static bool poison(fg_graph *g, uint32_t step, const io_rec *io)
+{
+    plan *p = g->next;
+    const res_rec *r = &g->open->res[io->res];
+    const res_plan *rp = &p->res[io->res];
+    if (!(g->debug & FG_DEBUG_POISON) || rp->first != step || p->slot[rp->slot].kind == SLOT_IMPORT)
+        return true;
+    const uint8_t flags = CLEAR_IF_ON | CLEAR_IF_OFF | CLEAR_POISON;
+    clear_run run = { 0, r->depth ? 1 : sub_layers(r), 0 };
+    for (; run.mip < r->mips; run.mip++)
+        if (!add_clear(g, io, &run, NONE, flags))
+            return false;
+    return true;
+}
+
+static bool clears_of_step(fg_graph *g, uint32_t step)
+{
+    const decl *d = g->open;
+    plan *p = g->next;
+    const pass_rec *rec = &d->pass[p->step[step].pass];
+    uint32_t value = rec->clear;
+    for (uint32_t k = rec->io; k < rec->io + rec->reads + rec->writes; k++) {
+        const io_rec *io = &d->io[k];
+        if (!p->absent[k] && !poison(g, step, io))
+            return false;
+    }
+    for (uint32_t k = rec->io; k < rec->io + rec->reads + rec->writes; k++) {
+        const io_rec *io = &d->io[k];
+        if (p->absent[k] || io->flags & IO_LAST)
+            continue;
+        if (!clear_for(g, io, io->flags & IO_CLEAR ? value : NONE))
+            return false;
+        value += (io->flags & IO_CLEAR) != 0;
+    }
+    return true;
+}
+
+// Subresources of imports come written, all others not.
+static bool prepare_written(fg_graph *g)
+{
+    const decl *d = g->open;
+    plan *p = g->next;
+    uint32_t total = 0;
+    for (uint32_t r = 0; r < d->res_count; r++) {
+        const uint32_t count = d->res[r].depth ? d->res[r].mips : sub_count(&d->res[r]);
+        p->res[r].written = count > 1 ? total : d->res[r].import != NONE;
+        if (p->res[r].slot != NONE && count > 1)
+            total += count;
+    }
+    if (!GROW(g, p->written, p->written_cap, total))
+        return false;
+    if (total)
+        memset(p->written, 0, total);
+    for (uint32_t r = 0; total && r < d->res_count; r++) {
+        const uint32_t count = d->res[r].depth ? d->res[r].mips : sub_count(&d->res[r]);
+        if (p->res[r].slot != NONE && count > 1 && d->res[r].import != NONE)
+            memset(p->written + p->res[r].written, 1, count);
+    }
+    return true;
+}
+
+static bool plan_clears(fg_graph *g)
+{
+    plan *p = g->next;
+    p->clear_count = 0;
+    if (!prepare_written(g))
+        return false;
+    for (uint32_t i = 0; i < p->step_count; i++) {
+        p->step[i].clear = p->clear_count;
+        p->step[p->step_count].clear = p->clear_count; // where this step's begin, see add_clear()
+        if (!clears_of_step(g, i))
+            return false;
+    }
+    p->step[p->step_count].clear = p->clear_count;
+    return true;
+}
+
+// ---- barriers ---------------------------------------------------------------------------
+
+// A range of subresources of a slot.
+typedef struct touch {
+    uint32_t slot, layers; // layers of the whole slot
+    uint32_t mip, mip_end, layer, layer_end;
+    unsigned bit;
+    bool incoherent; // a write to an image or a storage buffer
+} touch;
+
+// Bits that `t` needs now.
+static unsigned needs_of(const barrier_state *b, const touch *t, uint32_t now)
+{
+    const uint32_t last = b->at[__builtin_ctz(t->bit)];
+    for (uint32_t m = t->mip; m < t->mip_end; m++) {
+        const sub_state *row = &b->p->sub[b->p->slot[t->slot].subs + m * t->layers];
+        for (uint32_t l = t->layer; l < t->layer_end; l++) {
+            b->g->work++;
+            if (row[l].write > last ||
+                (t->incoherent && row[l].touch > last && row[l].touch != now))
+                return t->bit;
+        }
+    }
+    return 0;
+}
+
+static void note(const barrier_state *b, const touch *t, uint32_t now)
+{
+    for (uint32_t m = t->mip; m < t->mip_end; m++) {
+        sub_state *row = &b->p->sub[b->p->slot[t->slot].subs + m * t->layers];
+        for (uint32_t l = t->layer; l < t->layer_end; l++) {
+            row[l].touch = now;
+            if (t->incoherent)
+                row[l].write = now;
+        }
+    }
+}
+
+static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
+{
+    const io_rec *io = &b->d->io[k];
+    if (b->p->absent[k])
+        return false;
+    const uint32_t slot = b->p->res[io->res].slot + (io->flags & IO_LAST ? 1 : 0);
+    if (!b->p->slot[slot].incoherent)
+        return false;
+    const res_rec *r = &b->d->res[io->res];
+    const bool flat = r->depth > 0;
+    *t = (touch){
+        .slot = slot,
+        .layers = flat ? 1 : sub_layers(r),
+        .mip = io->mip,
+        .mip_end = (uint32_t) io->mip + io->mips,
+        .layer = flat ? 0 : io->layer,
+        .layer_end = flat ? 1 : (uint32_t) io->layer + io->layers,
+        .bit = use_bit(io->use),
+        .incoherent =
+            (io->flags & IO_WRITE) && (io->use == FG_USE_IMAGE || io->use == FG_USE_STORAGE),
+    };
+    return true;
+}
+
+static bool touch_of_clear(const barrier_state *b, const clear_rec *c, touch *t)
+{
+    const uint32_t slot = b->p->res[c->res].slot;
+    if (!(c->flags & CLEAR_IF_ON) || !b->p->slot[slot].incoherent)
+        return false;
+    const res_rec *r = &b->d->res[c->res];
+    *t = (touch){
+        .slot = slot,
+        .layers = r->depth ? 1 : sub_layers(r),
+        .mip = c->mip,
+        .mip_end = (uint32_t) c->mip + c->mips,
+        .layer = c->layer,
+        .layer_end = (uint32_t) c->layer + c->layers,
+        .bit = FG_BARRIER_COPY,
+    };
+    return true;
+}
+
+static void issue(barrier_state *b, unsigned bits, uint32_t now)
+{
+    for (; bits; bits &= bits - 1)
+        b->at[__builtin_ctz(bits)] = now;
+}
+
+// Four positions a step: barrier, clears, barrier, pass.
+static void barriers_of_step(barrier_state *b, uint32_t step, uint32_t now)
+{
+    step_rec *s = &b->p->step[step];
+    const pass_rec *rec = &b->d->pass[s->pass];
+    const uint32_t end = rec->io + rec->reads + rec->writes;
+    touch t;
+    s->clear_bits = s->bits = 0;
+    for (uint32_t k = s->clear; k < s[1].clear; k++)
+        if (touch_of_clear(b, &b->p->clear[k], &t))
+            s->clear_bits |= (uint16_t) needs_of(b, &t, now + 1);
+    issue(b, s->clear_bits, now);
+    for (uint32_t k = s->clear; k < s[1].clear; k++)
+        if (touch_of_clear(b, &b->p->clear[k], &t))
+            note(b, &t, now + 1);
+    for (uint32_t k = rec->io; k < end; k++)
+        if (touch_of_io(b, k, &t))
+            s->bits |= (uint16_t) needs_of(b, &t, now + 3);
+    issue(b, s->bits, now + 2);
+    for (uint32_t k = rec->io; k < end; k++)
+        if (touch_of_io(b, k, &t))
+            note(b, &t, now + 3);
+}
+
+// At the end of a frame what was this frame's becomes last frame's.
+static void swap_histories(barrier_state *b)
+{
+    plan *p = b->p;
+    for (uint32_t s = 0; s + 1 < p->slot_count; s++) {
+        if (p->slot[s].kind != SLOT_HISTORY)
+            continue;
+        const uint32_t count = p->slot[s + 1].subs - p->slot[s].subs;
+        for (uint32_t i = 0; i < count; i++) {
+            sub_state *a = &p->sub[p->slot[s].subs + i], *c = a + count;
+            const sub_state hold = *a;
+            *a = *c;
+            *c = hold;
+        }
+        s++;
+    }
+}
+
+fg_status fg_barriers(fg_graph *g)
+{
+    plan *p = g->next;
+    barrier_state b = { .g = g, .d = g->open, .p = p };
+    if (!plan_clears(g) || !GROW(g, p->sub, p->sub_cap, p->sub_count)) {
+        fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory while planning barriers");
+        return FG_ERR_MEMORY;
+    }
+    if (!p->incoherent)
+        return FG_OK;
+    memset(p->sub, 0, p->sub_count * sizeof *p->sub);
+    for (uint32_t round = 0; round < 2; round++) {
+        const uint32_t base = 4 + round * 4 * p->step_count;
+        if (round)
+            swap_histories(&b);
+        for (uint32_t i = 0; i < p->step_count; i++)
+            barriers_of_step(&b, i, base + 4 * i);
+    }
+    return FG_OK;
+}
