@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "atrium_priv.h"
+
+#include "builtin.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXTURE_SIZE = 512 };
+
+// Base colours multiply the texture, linear. Everything is diffuse, so that a technique for
+// diffuse light can be held against the whole truth here.
+static const struct {
+    const char *name;
+    int texture; // a pattern, -1: none
+    float color[3];
+} looks[ATRIUM_MATERIALS] = {
+    [ATRIUM_ASHLAR] = { "ashlar", PATTERN_ASHLAR, { 1, 1, 1 } },
+    [ATRIUM_LIMESTONE] = { "limestone", PATTERN_LIMESTONE, { 1, 1, 1 } },
+    [ATRIUM_PLASTER] = { "plaster", PATTERN_PLASTER, { 1, 1, 1 } },
+    [ATRIUM_WHITEWASH] = { "whitewash", -1, { 0.72f, 0.69f, 0.63f } },
+    [ATRIUM_BRICK] = { "brick", PATTERN_BRICK, { 1, 1, 1 } },
+    [ATRIUM_PAVING] = { "paving", PATTERN_PAVING, { 1, 1, 1 } },
+    [ATRIUM_TERRACOTTA] = { "terracotta", PATTERN_TERRACOTTA, { 1, 1, 1 } },
+    [ATRIUM_CLAY] = { "clay", PATTERN_CLAY, { 1, 1, 1 } },
+    [ATRIUM_WOOD] = { "wood", PATTERN_WOOD, { 1, 1, 1 } },
+    [ATRIUM_RED] = { "red cloth", PATTERN_FABRIC, { 0.72f, 0.06f, 0.045f } },
+    [ATRIUM_GREEN] = { "green cloth", PATTERN_FABRIC, { 0.10f, 0.42f, 0.11f } },
+    [ATRIUM_BLUE] = { "blue cloth", PATTERN_FABRIC, { 0.07f, 0.17f, 0.58f } },
+    [ATRIUM_LEAVES] = { "leaves", PATTERN_LEAVES, { 1, 1, 1 } },
+    [ATRIUM_BRASS] = { "brass", -1, { 0.48f, 0.32f, 0.12f } },
+    [ATRIUM_WATER] = { "water", -1, { 0.10f, 0.20f, 0.20f } },
+};
+
+static void add_materials(atrium *a)
+{
+    int texture[PATTERN_COUNT];
+    memset(texture, 0xff, sizeof texture); // -1: not painted yet
+    for (int i = 0; i < ATRIUM_MATERIALS; ++i) {
+        ag_material m = ag_default_material();
+        snprintf(m.name, sizeof m.name, "%s", looks[i].name);
+        memcpy(m.base_color, looks[i].color, sizeof looks[i].color);
+        const int what = looks[i].texture;
+        if (what >= 0) {
+            if (texture[what] < 0)
+                texture[what] = kit_texture(&a->k, looks[i].name, (pattern) what, TEXTURE_SIZE);
+            m.base_color_tex.texture = texture[what];
+        }
+        if (what == PATTERN_LEAVES) {
+            m.alpha = AG_ALPHA_MASK;
+            m.alpha_cutoff = 0.5f;
+        }
+        a->material[i] = ag_builder_material(a->k.builder, &m);
+    }
+}
+
+static void add_cameras(atrium *a)
+{
+    kit_camera(&a->k, "court", (double[]){ -8.3, 1.75, -2.9 }, (double[]){ 3.0, 3.0, 2.4 }, 1.12f);
+    kit_camera(&a->k, "gallery", (double[]){ -5.4, 6.25, -6.6 }, (double[]){ 1.5, 4.3, 4.0 }, 1.10f);
+    kit_camera(&a->k, "aisle", (double[]){ -8.6, 1.75, 6.35 }, (double[]){ 4.0, 2.05, 5.6 }, 1.05f);
+    kit_camera(&a->k, "above", (double[]){ -11.0, 14.5, -6.5 }, (double[]){ 1.0, 1.0, 1.0 }, 0.95f);
+}
+
+fg_status atrium_build(const fg_log *log, ag_scene **out)
+{
+    static const char *const names[4] = { "south side", "east side", "north side", "west side" };
+    atrium a;
+    *out = NULL;
+    if (!kit_begin(&a.k, log, "atrium"))
+        return FG_ERR_MEMORY;
+    for (int i = 0; i < 4; ++i)
+        a.side[i] = kit_node(&a.k, names[i], -1, (place){ .yaw = 1.57079632679489661923 * i });
+    add_materials(&a);
+    atrium_add_structure(&a);
+    atrium_add_furnishing(&a);
+    atrium_add_life(&a);
+    add_cameras(&a);
+    return kit_end(&a.k, out);
+}

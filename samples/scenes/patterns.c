@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "patterns.h"
+
+#include <math.h>
+
+// Hash of a lattice point: two rounds of multiply and fold.
+static uint32_t hash(uint32_t x, uint32_t y, uint32_t seed)
+{
+    uint32_t h = x * 0x8da6b343u ^ y * 0xd8163841u ^ seed * 0xcb1ab31fu;
+    h = (h ^ h >> 15) * 0x2c1b3c6du;
+    h = (h ^ h >> 12) * 0x297a2d39u;
+    return h ^ h >> 15;
+}
+
+static float hash_unit(int x, int y, uint32_t seed)
+{
+    return (float) (hash((uint32_t) x, (uint32_t) y, seed) >> 8) * (1.0f / 16777216.0f);
+}
+
+static float mix(float a, float b, float t)
+{
+    return a + (b - a) * t;
+}
+
+static float clamp01(float x)
+{
+    return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
+}
+
+// 0 below `lo`, 1 above `hi`, smooth between.
+static float step_smooth(float lo, float hi, float x)
+{
+    const float t = clamp01((x - lo) / (hi - lo));
+    return t * t * (3.0f - 2.0f * t);
+}
+
+// Value noise in [0, 1] on a lattice of nx x ny cells over the unit square, which it tiles.
+// `u` and `v` are in [0, 1).
+static float noise(float u, float v, int nx, int ny, uint32_t seed)
+{
+    const float x = u * (float) nx, y = v * (float) ny;
+    const int ix = (int) x, iy = (int) y;
+    const float fx = x - (float) ix, fy = y - (float) iy;
+    const float sx = fx * fx * (3.0f - 2.0f * fx), sy = fy * fy * (3.0f - 2.0f * fy);
+    const int x0 = ix % nx, x1 = (ix + 1) % nx, y0 = iy % ny, y1 = (iy + 1) % ny;
+    const float top = mix(hash_unit(x0, y0, seed), hash_unit(x1, y0, seed), sx);
+    const float bottom = mix(hash_unit(x0, y1, seed), hash_unit(x1, y1, seed), sx);
+    return mix(top, bottom, sy);
+}
+
+// Four octaves, about [0, 1], mean 0.5.
+static float cloud(float u, float v, int cells, uint32_t seed)
+{
+    float sum = 0.0f, weight = 0.5333333f;
+    for (uint32_t i = 0; i < 4; ++i) {
+        sum += weight * noise(u, v, cells << i, cells << i, seed + i);
+        weight *= 0.5f;
+    }
+    return sum;
+}
+
+// The linear colour `base` made lighter or darker by `shade`.
+static void tint(const float base[3], float shade, float rgba[4])
+{
+    for (int i = 0; i < 3; ++i)
+        rgba[i] = base[i] * shade;
+}
+
+static void blend(float rgba[4], const float over[3], float amount)
+{
+    for (int i = 0; i < 3; ++i)
+        rgba[i] = mix(rgba[i], over[i], amount);
+}
+
+// A cell of a running bond: which one, and how far from its edge.
+typedef struct brick {
+    int column, row;
+    float edge; // in tile units
+    float x, y; // within the cell, [0, 1]
+} brick;
+
+// `columns` by `rows` cells over the tile, every other row moved by half a cell.
+static brick bond(float u, float v, int columns, int rows)
+{
+    const float y = v * (float) rows;
+    brick b = { .row = (int) y };
+    const float x = u * (float) columns + (b.row % 2 ? 0.5f : 0.0f);
+    b.column = (int) x % columns;
+    b.x = x - (float) (int) x;
+    b.y = y - (float) b.row;
+    const float ex = fminf(b.x, 1.0f - b.x) / (float) columns;
+    const float ey = fminf(b.y, 1.0f - b.y) / (float) rows;
+    b.edge = fminf(ex, ey);
+    return b;
+}
+
+static void ashlar(float u, float v, float rgba[4])
+{
+    static const float stone[3] = { 0.56f, 0.47f, 0.35f }, joint[3] = { 0.33f, 0.28f, 0.21f };
+    const brick b = bond(u, v, 3, 5);
+    const float own = hash_unit(b.column, b.row, 11);
+    const float grain = cloud(u, v, 8, 21), fine = noise(u, v, 128, 128, 31);
+    tint(stone, 0.80f + 0.20f * own + 0.26f * (grain - 0.5f) + 0.10f * (fine - 0.5f), rgba);
+    rgba[2] *= 0.94f + 0.12f * hash_unit(b.column, b.row, 12);
+    blend(rgba, joint, 1.0f - step_smooth(0.0022f, 0.0052f, b.edge + 0.0018f * (fine - 0.5f)));
+}
+
+static void limestone(float u, float v, float rgba[4])
+{
+    static const float stone[3] = { 0.64f, 0.58f, 0.48f }, vein[3] = { 0.46f, 0.39f, 0.31f };
+    const float a = cloud(u, v, 4, 41), b = cloud(u, v, 6, 51), fine = noise(u, v, 160, 160, 61);
+    tint(stone, 0.92f + 0.24f * (a - 0.5f) + 0.08f * (fine - 0.5f), rgba);
+    blend(rgba, vein, 0.4f * (1.0f - step_smooth(0.0f, 0.035f, fabsf(b - 0.52f))));
+}
+
+static void plaster(float u, float v, float rgba[4])
+{
+    static const float wash[3] = { 0.62f, 0.44f, 0.25f }, bare[3] = { 0.60f, 0.53f, 0.43f };
+    const float a = cloud(u, v, 4, 71), b = cloud(u, v, 7, 81), fine = noise(u, v, 200, 200, 91);
+    tint(wash, 0.90f + 0.40f * (a - 0.5f) + 0.07f * (fine - 0.5f), rgba);
+    blend(rgba, bare, 0.75f * step_smooth(0.56f, 0.68f, b));
+}
+
+static void bricks(float u, float v, float rgba[4])
+{
+    static const float clay[3] = { 0.40f, 0.17f, 0.10f }, mortar[3] = { 0.45f, 0.40f, 0.33f };
+    const brick b = bond(u, v, 4, 14);
+    const float own = hash_unit(b.column, b.row, 101), fine = cloud(u, v, 32, 111);
+    tint(clay, 0.70f + 0.50f * own + 0.35f * (fine - 0.5f), rgba);
+    blend(rgba, mortar, 1.0f - step_smooth(0.004f, 0.008f, b.edge));
+}
+
+static void paving(float u, float v, float rgba[4])
+{
+    static const float pale[3] = { 0.60f, 0.54f, 0.44f }, dark[3] = { 0.22f, 0.17f, 0.15f };
+    static const float gap[3] = { 0.25f, 0.22f, 0.18f };
+    // Two slabs a side, and a diamond on every corner.
+    const float x = 2.0f * u, y = 2.0f * v;
+    const int cx = (int) (x + 0.5f), cy = (int) (y + 0.5f);
+    const float dx = fabsf(x - (float) cx), dy = fabsf(y - (float) cy);
+    const float diamond = dx + dy; // from the nearest corner
+    const float grain = cloud(u, v, 8, 121), fine = noise(u, v, 96, 96, 131);
+    const int sx = (int) x, sy = (int) y;
+    tint(pale, 0.84f + 0.16f * hash_unit(sx, sy, 141) + 0.24f * (grain - 0.5f) + 0.06f * fine, rgba);
+    blend(rgba, gap, 1.0f - step_smooth(0.006f, 0.014f, fminf(dx, dy)));
+    if (diamond < 0.24f) {
+        tint(dark, 0.8f + 0.2f * hash_unit(cx % 2, cy % 2, 151) + 0.5f * (grain - 0.5f), rgba);
+        blend(rgba, gap, step_smooth(0.222f, 0.236f, diamond));
+    }
+}
+
+static void terracotta(float u, float v, float rgba[4])
+{
+    static const float clay[3] = { 0.47f, 0.23f, 0.13f }, gap[3] = { 0.30f, 0.25f, 0.20f };
+    const float x = 4.0f * u, y = 4.0f * v;
+    const int ix = (int) x, iy = (int) y;
+    const float fx = x - (float) ix, fy = y - (float) iy;
+    const float edge = fminf(fminf(fx, 1.0f - fx), fminf(fy, 1.0f - fy));
+    const float grain = cloud(u, v, 10, 161);
+    tint(clay, 0.75f + 0.35f * hash_unit(ix, iy, 171) + 0.30f * (grain - 0.5f), rgba);
+    blend(rgba, gap, 1.0f - step_smooth(0.012f, 0.030f, edge));
+}
+
+static void clay(float u, float v, float rgba[4])
+{
+    static const float base[3] = { 0.48f, 0.24f, 0.14f }, lichen[3] = { 0.40f, 0.36f, 0.25f };
+    const float a = cloud(u, v, 5, 181), b = cloud(u, v, 9, 191);
+    tint(base, 0.85f + 0.5f * (a - 0.5f) + 0.12f * (noise(u, v, 64, 64, 201) - 0.5f), rgba);
+    blend(rgba, lichen, 0.5f * step_smooth(0.58f, 0.72f, b));
+}
+
+static void wood(float u, float v, float rgba[4])
+{
+    static const float heart[3] = { 0.30f, 0.17f, 0.09f };
+    const float x = 5.0f * u;
+    const int plank = (int) x;
+    const float edge = fminf(x - (float) plank, (float) (plank + 1) - x);
+    const float fibre = noise(u, v, 90, 4, 211u), wide = noise(u, v, 24, 3, 221u);
+    const float own = hash_unit(plank, 0, 231);
+    tint(heart, 0.75f + 0.35f * own + 0.35f * (fibre - 0.5f) + 0.35f * (wide - 0.5f), rgba);
+    const float seam = step_smooth(0.010f, 0.035f, edge);
+    tint((const float[3]){ rgba[0], rgba[1], rgba[2] }, 0.45f + 0.55f * seam, rgba);
+}
+
+static void fabric(float u, float v, float rgba[4])
+{
+    // Warp over weft in turn, 64 threads a side, with a woven lozenge figure.
+    const float x = 64.0f * u, y = 64.0f * v;
+    const float fx = x - (float) (int) x - 0.5f, fy = y - (float) (int) y - 0.5f;
+    const bool over = ((int) x + (int) y) % 2;
+    const float thread = 1.0f - (over ? fx * fx : fy * fy) * 1.1f;
+    const float lx = fabsf(4.0f * u - (float) (int) (4.0f * u) - 0.5f);
+    const float ly = fabsf(2.0f * v - (float) (int) (2.0f * v) - 0.5f);
+    const float figure = step_smooth(0.03f, 0.05f, fabsf(lx + ly - 0.5f));
+    const float shade = (0.80f + 0.12f * figure) * thread * (0.92f + 0.16f * noise(u, v, 16, 64, 241));
+    tint((const float[3]){ 1.0f, 1.0f, 1.0f }, clamp01(shade), rgba);
+}
+
+// How far inside a leaf of the given half width the point is: 1 on the rib, 0 outside. Leaf axis
+// from (0, 0) to (0, 1).
+static float leaf_inside(float x, float y)
+{
+    if (y <= 0.0f || y >= 1.0f)
+        return 0.0f;
+    // Broad near the stalk, pointed at the tip, with a toothed edge.
+    const float half = 1.15f * y * (1.0f - y) * (1.25f - 0.9f * y) + 0.02f * (1.0f - y) *
+                       fabsf(12.0f * y - (float) (int) (12.0f * y) - 0.5f);
+    return clamp01(1.0f - fabsf(x) / half);
+}
+
+static void leaves(float u, float v, float rgba[4])
+{
+    // Nine leaves around the card's middle; the last ones lie on top.
+    static const float leaf[9][4] = { // foot x, foot y, direction cos, sin; length below
+        { 0.50f, 0.52f, 0.00f, 1.00f },  { 0.48f, 0.50f, 0.77f, 0.64f },
+        { 0.52f, 0.50f, -0.77f, 0.64f }, { 0.50f, 0.48f, 0.98f, -0.17f },
+        { 0.50f, 0.48f, -0.98f, -0.17f }, { 0.52f, 0.50f, 0.64f, -0.77f },
+        { 0.48f, 0.50f, -0.64f, -0.77f }, { 0.46f, 0.60f, 0.34f, 0.94f },
+        { 0.54f, 0.44f, -0.17f, -0.98f },
+    };
+    static const float green[3] = { 0.16f, 0.27f, 0.07f }, rib[3] = { 0.33f, 0.42f, 0.16f };
+    tint(green, 0.9f, rgba); // what filtering at the edges mixes in
+    rgba[3] = 0.0f;
+    for (int i = 0; i < 9; ++i) {
+        const float length = 0.40f + 0.08f * hash_unit(i, 0, 251);
+        const float dx = (u - leaf[i][0]) / length, dy = (v - leaf[i][1]) / length;
+        const float along = dx * leaf[i][2] + dy * leaf[i][3];
+        const float aside = dy * leaf[i][2] - dx * leaf[i][3];
+        const float inside = leaf_inside(aside, along);
+        if (inside <= 0.0f)
+            continue;
+        const float own = 0.65f + 0.7f * hash_unit(i, 1, 251);
+        tint(green, own * (0.8f + 0.4f * noise(u, v, 48, 48, 261)), rgba);
+        blend(rgba, rib, 0.8f * step_smooth(0.90f, 0.97f, inside));
+        rgba[3] = 1.0f;
+    }
+}
+
+static void (*const painters[PATTERN_COUNT])(float u, float v, float rgba[4]) = {
+    [PATTERN_ASHLAR] = ashlar,         [PATTERN_LIMESTONE] = limestone,
+    [PATTERN_PLASTER] = plaster,       [PATTERN_BRICK] = bricks,
+    [PATTERN_PAVING] = paving,         [PATTERN_TERRACOTTA] = terracotta,
+    [PATTERN_CLAY] = clay,             [PATTERN_WOOD] = wood,
+    [PATTERN_FABRIC] = fabric,         [PATTERN_LEAVES] = leaves,
+};
+
+enum { ENCODE_STEPS = 4096 };
+
+// IEC 61966-2-1 encoding of [0, 1] in steps.
+static void encode_table(uint8_t table[ENCODE_STEPS + 1])
+{
+    for (int i = 0; i <= ENCODE_STEPS; ++i) {
+        const double x = (double) i / ENCODE_STEPS;
+        const double y = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+        table[i] = (uint8_t) (255.0 * y + 0.5);
+    }
+}
+
+void pattern_paint(pattern what, int size, uint8_t *rgba)
+{
+    uint8_t table[ENCODE_STEPS + 1];
+    encode_table(table);
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            float c[4] = { 0.0f, 0.0f, 0.0f, 1.0f };
+            painters[what](((float) x + 0.5f) / (float) size, ((float) y + 0.5f) / (float) size, c);
+            for (int i = 0; i < 3; ++i)
+                *rgba++ = table[(int) (clamp01(c[i]) * ENCODE_STEPS + 0.5f)];
+            *rgba++ = (uint8_t) (255.0f * c[3]);
+        }
+    }
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#ifndef PATTERNS_H
+#define PATTERNS_H
+
+#include <fg/base.h>
+
+FG_BEGIN
+
+// Tiling textures made by code: integer-hash value noise, so that every machine paints the same.
+// The side of the tile in metres is what each is drawn for.
+typedef enum pattern {
+    PATTERN_ASHLAR = 0, // coursed limestone blocks, 2 m
+    PATTERN_LIMESTONE,  // smooth, veined, for columns, 1 m
+    PATTERN_PLASTER,    // ochre wash, weathered, 3 m
+    PATTERN_BRICK,      // 1 m
+    PATTERN_PAVING,     // court: pale squares with dark diamonds, 1.2 m
+    PATTERN_TERRACOTTA, // gallery floors: square tiles, 1.2 m
+    PATTERN_CLAY,       // roof tiles, pots, 1 m
+    PATTERN_WOOD,       // planks along v, 1 m
+    PATTERN_FABRIC,     // woven, near white: takes its colour from the material, 0.6 m
+    PATTERN_LEAVES,     // a spray of leaves, alpha 0 or 1 between them, one card
+    PATTERN_COUNT,
+} pattern;
+
+// Paints RGBA8, sRGB-encoded, `size` x `size`, a power of two.
+void pattern_paint(pattern what, int size, uint8_t *rgba);
+
+FG_END
+
+#endif // PATTERNS_H

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "scenes.h"
+
+#include "builtin.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static const builtin_scene table[] = {
+    { "cornell", "the Cornell box as measured, with a spot under its ceiling", cornell_build },
+    { "atrium", "a two-storey court in bays with cloths, jars and plants, under a moving light",
+      atrium_build },
+};
+
+const builtin_scene *scenes_builtin(int i)
+{
+    return i >= 0 && i < FG_COUNT(table) ? &table[i] : NULL;
+}
+
+static bool is_file(const char *path)
+{
+    struct stat st;
+    return stat(path, &st) == 0 && S_ISREG(st.st_mode);
+}
+
+// The directory's first .gltf by name; the path in `out`, or false.
+static bool first_gltf(const char *folder, char *out, size_t size)
+{
+    char best[256] = "";
+    DIR *dir = opendir(folder);
+    if (!dir)
+        return false;
+    for (const struct dirent *e = readdir(dir); e; e = readdir(dir)) {
+        const size_t length = strlen(e->d_name);
+        const bool gltf = length > 5 && !strcmp(e->d_name + length - 5, ".gltf");
+        if (gltf && length < sizeof best && (!best[0] || strcmp(e->d_name, best) < 0))
+            memcpy(best, e->d_name, length + 1);
+    }
+    closedir(dir);
+    const int written = snprintf(out, size, "%s/%s", folder, best);
+    return best[0] && written > 0 && (size_t) written < size && is_file(out);
+}
+
+// NAME, NAME.gltf, NAME.glb, NAME/*.gltf below `root`.
+static bool find_below(const char *root, const char *name, char *out, size_t size)
+{
+    static const char *const endings[] = { "", ".gltf", ".glb" };
+    for (int i = 0; i < FG_COUNT(endings); ++i) {
+        const int written = snprintf(out, size, "%s/%s%s", root, name, endings[i]);
+        if (written > 0 && (size_t) written < size && is_file(out))
+            return true;
+    }
+    char folder[2048];
+    const int written = snprintf(folder, sizeof folder, "%s/%s", root, name);
+    return written > 0 && (size_t) written < sizeof folder && first_gltf(folder, out, size);
+}
+
+fg_status scenes_open(const fg_log *log, const char *name, ag_scene **out)
+{
+    *out = NULL;
+    for (int i = 0; scenes_builtin(i); ++i) {
+        if (!strcmp(name, scenes_builtin(i)->name))
+            return scenes_builtin(i)->build(log, out);
+    }
+    if (is_file(name))
+        return ag_scene_load(log, name, out);
+    char path[2304];
+    const char *root = getenv("AFTERGLOW_SCENES");
+    if (root && root[0] && name[0] && find_below(root, name, path, sizeof path))
+        return ag_scene_load(log, path, out);
+    if (root && root[0])
+        fg_logf(log, FG_LOG_ERROR,
+                "%s: no such scene: not a built-in one, not a file, and no such .gltf or .glb below "
+                "AFTERGLOW_SCENES (%s)", name, root);
+    else
+        fg_logf(log, FG_LOG_ERROR,
+                "%s: no such scene: not a built-in one and not a file; AFTERGLOW_SCENES is not set",
+                name);
+    return FG_ERR_INPUT;
+}
