@@ -7,10 +7,16 @@
 
 static const float pi = 3.14159265f;
 
+// A turned thing of 20 segments, 40 where it is wider than a metre.
 static int add_turned(atrium *a, const char *name, atrium_material material,
                       const float (*profile)[2], int count)
 {
-    const shape_lathe_desc d = { .profile = profile, .count = count, .segments = 28 };
+    float widest = 0.0f;
+    for (int i = 0; i < count; ++i)
+        widest = fmaxf(widest, profile[i][0]);
+    const shape_lathe_desc d = { .profile = profile,
+                                 .count = count,
+                                 .segments = widest > 1.0f ? 40 : 20 };
     shape s = { .tiling = 1.0f };
     shape_lathe(&s, &d);
     return kit_part(&a->k, name, &s, a->material[material]);
@@ -20,15 +26,15 @@ static int add_turned(atrium *a, const char *name, atrium_material material,
 static void add_fountain(atrium *a)
 {
     static const float basin[][2] = {
-        { 0, -0.05f },     { 1.62f, -0.05f }, { 1.62f, 0.10f }, { 1.50f, 0.13f }, { 1.46f, 0.40f },
-        { 1.52f, 0.44f },  { 1.58f, 0.46f },  { 1.58f, 0.54f }, { 1.55f, 0.56f }, { 1.32f, 0.56f },
-        { 1.29f, 0.54f },  { 1.27f, 0.12f },  { 0, 0.12f },
+        { 0, -0.05f },    { 1.62f, -0.05f }, { 1.62f, 0.10f }, { 1.50f, 0.13f }, { 1.46f, 0.40f },
+        { 1.52f, 0.44f }, { 1.58f, 0.46f },  { 1.58f, 0.54f }, { 1.55f, 0.56f }, { 1.32f, 0.56f },
+        { 1.29f, 0.54f }, { 1.27f, 0.12f },  { 0, 0.12f },
     };
     static const float stem[][2] = {
-        { 0, 0.1f },       { 0.30f, 0.1f },   { 0.30f, 0.30f }, { 0.17f, 0.42f }, { 0.13f, 0.62f },
-        { 0.19f, 0.78f },  { 0.13f, 0.92f },  { 0.12f, 1.02f }, { 0.34f, 1.10f }, { 0.62f, 1.24f },
-        { 0.68f, 1.32f },  { 0.66f, 1.34f },  { 0.60f, 1.32f }, { 0.34f, 1.19f }, { 0.12f, 1.17f },
-        { 0.08f, 1.40f },  { 0.13f, 1.52f },  { 0.10f, 1.64f }, { 0.04f, 1.68f }, { 0, 1.72f },
+        { 0, 0.1f },      { 0.30f, 0.1f },  { 0.30f, 0.30f }, { 0.17f, 0.42f }, { 0.13f, 0.62f },
+        { 0.19f, 0.78f }, { 0.13f, 0.92f }, { 0.12f, 1.02f }, { 0.34f, 1.10f }, { 0.62f, 1.24f },
+        { 0.68f, 1.32f }, { 0.66f, 1.34f }, { 0.60f, 1.32f }, { 0.34f, 1.19f }, { 0.12f, 1.17f },
+        { 0.08f, 1.40f }, { 0.13f, 1.52f }, { 0.10f, 1.64f }, { 0.04f, 1.68f }, { 0, 1.72f },
     };
     static const float pool[][2] = { { 1.285f, 0.40f }, { 0, 0.40f } };
     static const float bowl[][2] = { { 0.53f, 1.275f }, { 0, 1.275f } };
@@ -95,12 +101,16 @@ static void add_crown(shape *s, const float centre[3], const float radius[3], in
 static void add_plants(atrium *a)
 {
     static const float pot[][2] = {
-        { 0, 0 },          { 0.24f, 0 },      { 0.25f, 0.03f }, { 0.33f, 0.38f }, { 0.345f, 0.46f },
-        { 0.39f, 0.48f },  { 0.40f, 0.55f },  { 0.385f, 0.57f }, { 0.345f, 0.57f }, { 0.33f, 0.50f },
-        { 0, 0.50f },
+        { 0, 0 },          { 0.24f, 0 },     { 0.25f, 0.03f }, { 0.33f, 0.38f },
+        { 0.345f, 0.46f }, { 0.39f, 0.48f }, { 0.40f, 0.55f }, { 0.385f, 0.57f },
+        { 0.345f, 0.57f }, { 0.33f, 0.50f }, { 0, 0.50f },
     };
-    static const float trunk[][3] = { { 0, 0.45f, 0 }, { 0.03f, 0.9f, 0.01f }, { -0.01f, 1.4f, 0.03f }, { 0, 1.9f, 0 } };
-    static const float trees[][2] = { { -4.6f, 2.35f }, { 4.6f, 2.35f }, { 4.6f, -2.35f }, { -4.6f, -2.35f } };
+    static const float trunk[][3] = {
+        { 0, 0.45f, 0 }, { 0.03f, 0.9f, 0.01f }, { -0.01f, 1.4f, 0.03f }, { 0, 1.9f, 0 }
+    };
+    static const float trees[][2] = {
+        { -4.6f, 2.35f }, { 4.6f, 2.35f }, { 4.6f, -2.35f }, { -4.6f, -2.35f }
+    };
     static const float bushes[][2] = {
         { -7.5f, 3.55f }, { 7.5f, 3.55f }, { 7.5f, -3.55f }, { -1.5f, -3.55f }, { 1.5f, 3.55f },
     };
@@ -114,8 +124,8 @@ static void add_plants(atrium *a)
     const int leaves = kit_part(&a->k, "crown", &crown, a->material[ATRIUM_LEAVES]);
     const int low = kit_part(&a->k, "bush", &bush, a->material[ATRIUM_LEAVES]);
     for (int i = 0; i < FG_COUNT(trees); ++i) {
-        const int node = kit_show(&a->k, "tree", clay, -1,
-                                  (place){ trees[i][0], 0, trees[i][1], 1.1 * i });
+        const int node =
+            kit_show(&a->k, "tree", clay, -1, (place){ trees[i][0], 0, trees[i][1], 1.1 * i });
         kit_show(&a->k, "trunk", wood, node, (place){ 0 });
         kit_show(&a->k, "crown", leaves, node, (place){ 0 });
     }
@@ -137,8 +147,8 @@ static void add_ivy(atrium *a)
         const float y = 0.2f + 6.2f * climb;
         const float reach = 0.5f + 3.2f * expf(-2.5f * (climb - 0.62f) * (climb - 0.62f) * 9.0f);
         const float x = -8.75f + reach * spread;
-        const bool over_arch = y < 4.2f && x > -8.6f &&
-                               hypotf(x + 7.5f, fmaxf(y - 2.9f, 0.0f)) < 1.42f;
+        const bool over_arch =
+            y < 4.2f && x > -8.6f && hypotf(x + 7.5f, fmaxf(y - 2.9f, 0.0f)) < 1.42f;
         if (over_arch || y > 4.5f + 0.95f * (x + 9.9f))
             continue;
         const float out = y > 4.2f && y < 4.6f ? -0.44f : y > 4.5f ? -0.22f : -0.32f;
@@ -154,10 +164,11 @@ static void add_ivy(atrium *a)
 static void add_jars(atrium *a)
 {
     static const float jar[][2] = {
-        { 0, 0 },          { 0.15f, 0 },      { 0.17f, 0.02f }, { 0.16f, 0.06f }, { 0.20f, 0.16f },
-        { 0.27f, 0.32f },  { 0.315f, 0.50f }, { 0.32f, 0.62f }, { 0.285f, 0.76f }, { 0.21f, 0.88f },
-        { 0.145f, 0.95f }, { 0.13f, 1.00f },  { 0.14f, 1.04f }, { 0.19f, 1.08f }, { 0.195f, 1.11f },
-        { 0.17f, 1.115f }, { 0.115f, 1.05f }, { 0.105f, 0.98f }, { 0.12f, 0.93f }, { 0.24f, 0.78f },
+        { 0, 0 },          { 0.15f, 0 },      { 0.17f, 0.02f },  { 0.16f, 0.06f },
+        { 0.20f, 0.16f },  { 0.27f, 0.32f },  { 0.315f, 0.50f }, { 0.32f, 0.62f },
+        { 0.285f, 0.76f }, { 0.21f, 0.88f },  { 0.145f, 0.95f }, { 0.13f, 1.00f },
+        { 0.14f, 1.04f },  { 0.19f, 1.08f },  { 0.195f, 1.11f }, { 0.17f, 1.115f },
+        { 0.115f, 1.05f }, { 0.105f, 0.98f }, { 0.12f, 0.93f },  { 0.24f, 0.78f },
         { 0.27f, 0.55f },  { 0, 0.10f },
     };
     const int part = add_turned(a, "jar", ATRIUM_CLAY, PROFILE(jar));
@@ -189,8 +200,13 @@ static void add_curtains(atrium *a)
     };
     static const float rod[2][3] = { { -1.5f, 0, 0 }, { 1.5f, 0, 0 } };
     const shape_tube_desc bar = { .path = rod, .count = 2, .radius = 0.022f, .segments = 8 };
-    const shape_cloth_desc cloth = { .width = 1.15f, .height = 2.6f, .folds = 6, .depth = 0.075f,
-                                     .gather = 0.35f, .nu = 42, .nv = 9 };
+    const shape_cloth_desc cloth = { .width = 1.15f,
+                                     .height = 2.6f,
+                                     .folds = 6,
+                                     .depth = 0.075f,
+                                     .gather = 0.35f,
+                                     .nu = 30,
+                                     .nv = 8 };
     shape s = { 0 };
     shape_tube(&s, &bar);
     const int brass = kit_part(&a->k, "rod", &s, a->material[ATRIUM_BRASS]);
@@ -214,8 +230,9 @@ static void add_curtains(atrium *a)
 static void add_banners(atrium *a)
 {
     static const atrium_material cloths[3] = { ATRIUM_RED, ATRIUM_BLUE, ATRIUM_GREEN };
-    const shape_cloth_desc cloth = { .width = 1.1f, .height = 1.9f, .folds = 2, .depth = 0.03f,
-                                     .gather = 0.0f, .nu = 20, .nv = 6 };
+    const shape_cloth_desc cloth = {
+        .width = 1.1f, .height = 1.9f, .folds = 2, .depth = 0.03f, .gather = 0.0f, .nu = 20, .nv = 6
+    };
     for (int i = 0; i < 3; ++i) {
         shape s = { .tiling = 1.0f / 0.6f };
         shape_cloth(&s, &cloth);
@@ -224,7 +241,8 @@ static void add_banners(atrium *a)
             const int bay = side % 2 ? i : 2 * i + 1;
             if (side % 2 && i != 1)
                 continue;
-            const place at = { atrium_bay_centre(side, bay), 5.43, atrium_distance(side) - 0.42, 0 };
+            const place at = { atrium_bay_centre(side, bay), 5.43, atrium_distance(side) - 0.42,
+                               0 };
             kit_show(&a->k, "banner", part, a->side[side], at);
         }
     }

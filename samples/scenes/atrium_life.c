@@ -16,10 +16,10 @@ static int add_lamp_part(atrium *a)
 {
     // From the hook at the origin downwards.
     static const float body[][2] = {
-        { 0, -1.28f },      { 0.05f, -1.26f }, { 0.06f, -1.22f }, { 0.04f, -1.19f },
-        { 0.15f, -1.13f },  { 0.17f, -1.10f }, { 0.14f, -1.08f }, { 0.19f, -0.86f },
-        { 0.22f, -0.84f },  { 0.22f, -0.81f }, { 0.17f, -0.79f }, { 0.10f, -0.70f },
-        { 0.05f, -0.66f },  { 0.05f, -0.62f }, { 0, -0.60f },
+        { 0, -1.28f },     { 0.05f, -1.26f }, { 0.06f, -1.22f }, { 0.04f, -1.19f },
+        { 0.15f, -1.13f }, { 0.17f, -1.10f }, { 0.14f, -1.08f }, { 0.19f, -0.86f },
+        { 0.22f, -0.84f }, { 0.22f, -0.81f }, { 0.17f, -0.79f }, { 0.10f, -0.70f },
+        { 0.05f, -0.66f }, { 0.05f, -0.62f }, { 0, -0.60f },
     };
     static const float chain[2][3] = { { 0, -0.62f, 0 }, { 0, 0.02f, 0 } };
     const shape_lathe_desc lantern = { PROFILE(body), 24, 8, 0.12f };
@@ -74,7 +74,7 @@ static void sweep(atrium *a, int pivot)
         const float t = (float) i / (float) (LIGHT_KEYS - 1);
         double q[4];
         times[i] = period * t;
-        along[3 * i] = 1.0f + 3.0f * sinf(tau * t);
+        along[3 * i] = 0.5f + 3.0f * sinf(tau * t);
         along[3 * i + 1] = 0.0f;
         along[3 * i + 2] = 1.2f;
         kit_turn(1, (double) (0.30f + 0.35f * sinf(tau * t)), q);
@@ -93,18 +93,20 @@ static void sweep(atrium *a, int pivot)
     ag_builder_channel(a->k.builder, &channel);
 }
 
-// A spot high above the far side's roof: a late morning sun of 17 W/m^2 or so on the court.
+// A spot high above the north side's roof: about 8 W/m^2 on the court's floor.
 static void add_light(atrium *a)
 {
-    const double from[3] = { 0, 19.0, -9.0 };
-    const int pivot = kit_node(&a->k, "sun pivot", -1, (place){ 1.0, 0, 1.2, 0 });
-    ag_node_desc arm = { .name = "sun", .parent = pivot, .translation = { from[0], from[1], from[2] } };
+    const double from[3] = { 0, 19.0, -7.6 };
+    const int pivot = kit_node(&a->k, "sun pivot", -1, (place){ 0.5, 0, 1.2, 0 });
+    ag_node_desc arm = { .name = "sun",
+                         .parent = pivot,
+                         .translation = { from[0], from[1], from[2] } };
     kit_aim((const double[3]){ -from[0], 2.2 - from[1], -from[2] }, arm.rotation);
     const int node = ag_builder_node(a->k.builder, &arm);
     const ag_light spot = {
         .name = "sun",
         .kind = AG_LIGHT_SPOT,
-        .intensity = { 4000.0f, 3700.0f, 3200.0f }, // W/sr
+        .intensity = { 3400.0f, 3150.0f, 2720.0f }, // W/sr
         .cos_inner = cosf(0.36f),
         .cos_outer = cosf(0.44f),
     };

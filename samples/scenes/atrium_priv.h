@@ -11,9 +11,9 @@
 
 static const float atrium_bay = 3.0f;
 static const float atrium_half_x = 9.0f, atrium_half_z = 4.5f; // of the arcades' axes
-static const float atrium_gallery = 3.0f;                       // arcade axis to back wall
-static const float atrium_floor[2] = { 0.15f, 4.5f };           // of the storeys
-static const float atrium_spring[2] = { 2.9f, 6.95f };          // of their arches
+static const float atrium_gallery = 3.0f;                      // arcade axis to back wall
+static const float atrium_floor[2] = { 0.15f, 4.5f };          // of the storeys
+static const float atrium_spring[2] = { 2.9f, 6.95f };         // of their arches
 static const float atrium_eaves = 9.0f;
 
 typedef enum atrium_material {
@@ -58,7 +58,7 @@ static inline double atrium_bay_centre(int side, int k)
     return (double) atrium_bay * (k + 0.5 - 0.5 * atrium_bays(side));
 }
 
-void atrium_add_structure(atrium *a); // atrium_structure.c: walls, columns, arches, roof
+void atrium_add_structure(atrium *a);  // atrium_structure.c: walls, columns, arches, roof
 void atrium_add_furnishing(atrium *a); // atrium_furnishing.c: what hangs, stands and grows in it
 void atrium_add_life(atrium *a);       // atrium_life.c: the moving lamps and the light
 

@@ -65,20 +65,22 @@ static void add_lower_columns(atrium *a)
         { 0, 0.31f },
     };
     static const float shaft[][2] = {
-        { 0, 0.30f },      { 0.208f, 0.30f },  { 0.207f, 0.85f }, { 0.201f, 1.4f },
-        { 0.190f, 1.95f }, { 0.178f, 2.32f },  { 0, 2.32f },
+        { 0, 0.30f },      { 0.208f, 0.30f }, { 0.206f, 0.95f },
+        { 0.195f, 1.65f }, { 0.178f, 2.32f }, { 0, 2.32f },
     };
     static const float neck[][2] = {
-        { 0, 2.29f },       { 0.186f, 2.29f }, { 0.2f, 2.305f }, { 0.2f, 2.325f },
-        { 0.186f, 2.34f },  { 0, 2.34f },
+        { 0, 2.29f },     { 0.186f, 2.29f }, { 0.2f, 2.305f },
+        { 0.2f, 2.325f }, { 0.186f, 2.34f }, { 0, 2.34f },
     };
     static const float bell[][2] = {
-        { 0, 2.335f },      { 0.185f, 2.335f }, { 0.2f, 2.42f },  { 0.205f, 2.46f },
-        { 0.235f, 2.55f },  { 0.29f, 2.605f },  { 0.30f, 2.625f }, { 0, 2.63f },
+        { 0, 2.335f },     { 0.185f, 2.335f }, { 0.2f, 2.42f },   { 0.205f, 2.46f },
+        { 0.235f, 2.55f }, { 0.29f, 2.605f },  { 0.30f, 2.625f }, { 0, 2.63f },
     };
-    static const float plinth[][2] = { { 0, -0.02f }, { 0.295f, -0.02f }, { 0.295f, 0.115f }, { 0, 0.115f } };
+    static const float plinth[][2] = {
+        { 0, -0.02f }, { 0.295f, -0.02f }, { 0.295f, 0.115f }, { 0, 0.115f }
+    };
     static const float abacus[][2] = {
-        { 0, 2.62f },     { 0.27f, 2.62f }, { 0.29f, 2.65f },
+        { 0, 2.62f },      { 0.27f, 2.62f },  { 0.29f, 2.65f },
         { 0.30f, 2.655f }, { 0.30f, 2.755f }, { 0, 2.755f },
     };
     shape s = { 0 };
@@ -101,8 +103,12 @@ static void add_upper_columns(atrium *a)
         { 0.126f, 2.08f },  { 0.144f, 2.09f },  { 0.144f, 2.12f },  { 0.128f, 2.13f },
         { 0.134f, 2.2f },   { 0.170f, 2.28f },  { 0.205f, 2.33f },  { 0, 2.34f },
     };
-    static const float plinth[][2] = { { 0, -0.02f }, { 0.21f, -0.02f }, { 0.21f, 0.1f }, { 0, 0.1f } };
-    static const float abacus[][2] = { { 0, 2.33f }, { 0.225f, 2.33f }, { 0.24f, 2.37f }, { 0.24f, 2.455f }, { 0, 2.455f } };
+    static const float plinth[][2] = {
+        { 0, -0.02f }, { 0.21f, -0.02f }, { 0.21f, 0.1f }, { 0, 0.1f }
+    };
+    static const float abacus[][2] = {
+        { 0, 2.33f }, { 0.225f, 2.33f }, { 0.24f, 2.37f }, { 0.24f, 2.455f }, { 0, 2.455f }
+    };
     shape s = { 0 };
     add_frame(&s, 0, 0, PROFILE(plinth));
     add_lathe(&s, PROFILE(round), 20);
@@ -115,7 +121,7 @@ static void add_upper_columns(atrium *a)
 static void add_piers(atrium *a)
 {
     static const float pier[][2] = {
-        { 0, 0 },        { 0.42f, 0 },     { 0.42f, 0.35f }, { 0.37f, 0.41f }, { 0.34f, 0.43f },
+        { 0, 0 },         { 0.42f, 0 },     { 0.42f, 0.35f }, { 0.37f, 0.41f }, { 0.34f, 0.43f },
         { 0.34f, 2.68f }, { 0.37f, 2.72f }, { 0.37f, 2.78f }, { 0.42f, 2.83f }, { 0.42f, 2.92f },
         { 0.34f, 2.95f }, { 0.34f, 4.55f }, { 0.38f, 4.57f }, { 0.38f, 4.85f }, { 0.32f, 4.90f },
         { 0.30f, 6.72f }, { 0.33f, 6.76f }, { 0.33f, 6.82f }, { 0.38f, 6.87f }, { 0.38f, 6.96f },
@@ -172,11 +178,9 @@ static void add_arcades(atrium *a)
 static void add_vaults(atrium *a)
 {
     const float half = 0.5f * atrium_bay;
-    const shape_vault_desc vault = { .half_x = half,
-                                     .half_z = half,
-                                     .spring = atrium_spring[0],
-                                     .rise = 1.25f,
-                                     .segments = 16 };
+    const shape_vault_desc vault = {
+        .half_x = half, .half_z = half, .spring = atrium_spring[0], .rise = 1.25f, .segments = 16
+    };
     const shape_arcade_desc rib = { .bays = 1,
                                     .bay = atrium_gallery,
                                     .radius = 1.24f,
@@ -205,27 +209,48 @@ static void add_vaults(atrium *a)
 // Floors, slabs, walls and mouldings: all that runs around the court.
 static void add_rings(atrium *a)
 {
-    static const float ground[][2] = { { -0.40f, -0.1f }, { 3.02f, -0.1f }, { 3.02f, 0.15f }, { -0.40f, 0.15f } };
-    static const float kerb[][2] = { { -0.55f, -0.1f }, { -0.05f, -0.1f }, { -0.05f, 0.156f }, { -0.53f, 0.156f }, { -0.55f, 0.136f } };
-    static const float slab[][2] = { { -0.15f, 4.2f }, { 3.02f, 4.2f }, { 3.02f, 4.5f }, { -0.15f, 4.5f } };
+    static const float ground[][2] = {
+        { -0.40f, -0.1f }, { 3.02f, -0.1f }, { 3.02f, 0.15f }, { -0.40f, 0.15f }
+    };
+    static const float kerb[][2] = { { -0.55f, -0.1f },
+                                     { -0.05f, -0.1f },
+                                     { -0.05f, 0.156f },
+                                     { -0.53f, 0.156f },
+                                     { -0.55f, 0.136f } };
+    static const float slab[][2] = {
+        { -0.15f, 4.2f }, { 3.02f, 4.2f }, { 3.02f, 4.5f }, { -0.15f, 4.5f }
+    };
     static const float course[][2] = {
-        { 0.1f, 4.28f }, { -0.25f, 4.28f }, { -0.27f, 4.34f }, { -0.33f, 4.37f },
+        { 0.1f, 4.28f },   { -0.25f, 4.28f }, { -0.27f, 4.34f }, { -0.33f, 4.37f },
         { -0.36f, 4.43f }, { -0.36f, 4.51f }, { 0.1f, 4.51f },
     };
     static const float cornice[][2] = {
-        { 0.15f, 8.5f }, { -0.22f, 8.5f }, { -0.25f, 8.58f }, { -0.33f, 8.62f }, { -0.36f, 8.72f },
-        { -0.46f, 8.78f }, { -0.52f, 8.86f }, { -0.52f, 8.96f }, { 0.15f, 8.96f },
+        { 0.15f, 8.5f },   { -0.22f, 8.5f },  { -0.25f, 8.58f },
+        { -0.33f, 8.62f }, { -0.36f, 8.72f }, { -0.46f, 8.78f },
+        { -0.52f, 8.86f }, { -0.52f, 8.96f }, { 0.15f, 8.96f },
     };
-    static const float lining[][2] = { { 3.0f, -0.2f }, { 3.14f, -0.2f }, { 3.14f, 8.9f }, { 3.0f, 8.9f } };
-    static const float outside[][2] = { { 3.1f, -0.2f }, { 3.5f, -0.2f }, { 3.5f, 10.55f }, { 3.1f, 10.55f } };
-    static const float coping[][2] = { { 3.02f, 10.5f }, { 3.58f, 10.5f }, { 3.58f, 10.58f }, { 3.3f, 10.66f }, { 3.02f, 10.58f } };
+    static const float lining[][2] = {
+        { 3.0f, -0.2f }, { 3.14f, -0.2f }, { 3.14f, 8.9f }, { 3.0f, 8.9f }
+    };
+    static const float outside[][2] = {
+        { 3.1f, -0.2f }, { 3.5f, -0.2f }, { 3.5f, 10.55f }, { 3.1f, 10.55f }
+    };
+    static const float coping[][2] = {
+        { 3.02f, 10.5f }, { 3.58f, 10.5f }, { 3.58f, 10.58f }, { 3.3f, 10.66f }, { 3.02f, 10.58f }
+    };
     static const float dado[][2] = {
-        { 3.01f, 0.1f }, { 2.92f, 0.1f }, { 2.92f, 0.3f }, { 2.95f, 0.33f },
+        { 3.01f, 0.1f }, { 2.92f, 0.1f },  { 2.92f, 0.3f },  { 2.95f, 0.33f },
         { 2.95f, 1.0f }, { 2.91f, 1.03f }, { 2.91f, 1.09f }, { 3.01f, 1.11f },
     };
-    static const float skirting[][2] = { { 3.01f, 4.4f }, { 2.95f, 4.4f }, { 2.95f, 4.72f }, { 3.01f, 4.75f } };
-    static const float ceiling[][2] = { { 0, 8.62f }, { 3.05f, 8.62f }, { 3.05f, 8.72f }, { 0, 8.72f } };
-    static const float wedge[][2] = { { -0.60f, 8.95f }, { 3.12f, 8.95f }, { 3.12f, 10.18f }, { -0.60f, 9.03f } };
+    static const float skirting[][2] = {
+        { 3.01f, 4.4f }, { 2.95f, 4.4f }, { 2.95f, 4.72f }, { 3.01f, 4.75f }
+    };
+    static const float ceiling[][2] = {
+        { 0, 8.62f }, { 3.05f, 8.62f }, { 3.05f, 8.72f }, { 0, 8.72f }
+    };
+    static const float wedge[][2] = {
+        { -0.60f, 8.95f }, { 3.12f, 8.95f }, { 3.12f, 10.18f }, { -0.60f, 9.03f }
+    };
     show_ring(a, "gallery floor", ATRIUM_TERRACOTTA, PROFILE(ground));
     show_ring(a, "kerb", ATRIUM_LIMESTONE, PROFILE(kerb));
     show_ring(a, "upper floor", ATRIUM_TERRACOTTA, PROFILE(slab));
@@ -311,27 +336,28 @@ static void add_roof(atrium *a)
     }
 }
 
-// Rails with eight balusters between two columns.
+// Rails with seven balusters between two columns.
 static void add_balustrades(atrium *a)
 {
     static const float turned[][2] = {
-        { 0, 0.10f },       { 0.052f, 0.10f },  { 0.052f, 0.15f }, { 0.030f, 0.19f },
-        { 0.066f, 0.33f },  { 0.058f, 0.44f },  { 0.029f, 0.62f }, { 0.034f, 0.70f },
-        { 0.052f, 0.74f },  { 0.052f, 0.80f },  { 0, 0.80f },
+        { 0, 0.10f },      { 0.052f, 0.10f }, { 0.052f, 0.15f }, { 0.030f, 0.19f },
+        { 0.066f, 0.33f }, { 0.056f, 0.46f }, { 0.029f, 0.66f }, { 0.050f, 0.73f },
+        { 0.050f, 0.80f }, { 0, 0.80f },
     };
     shape s = { 0 };
     shape_box(&s, (float[3]){ -1.36f, -0.01f, -0.11f }, (float[3]){ 1.36f, 0.105f, 0.11f });
     shape_box(&s, (float[3]){ -1.38f, 0.79f, -0.09f }, (float[3]){ 1.38f, 0.86f, 0.09f });
     shape_box(&s, (float[3]){ -1.38f, 0.85f, -0.125f }, (float[3]){ 1.38f, 0.93f, 0.125f });
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 7; ++i) {
         const size_t first = s.vertex_count;
         add_lathe(&s, PROFILE(turned), 9);
-        shape_move(&s, first, (float[3]){ 0.3f * ((float) i - 3.5f), 0, 0 }, 0);
+        shape_move(&s, first, (float[3]){ 0.345f * (float) (i - 3), 0, 0 }, 0);
     }
     const int part = kit_part(&a->k, "balustrade", &s, a->material[ATRIUM_LIMESTONE]);
     for (int side = 0; side < 4; ++side) {
         for (int k = 0; k < atrium_bays(side); ++k) {
-            const place at = { atrium_bay_centre(side, k), atrium_floor[1], atrium_distance(side), 0 };
+            const place at = { atrium_bay_centre(side, k), atrium_floor[1], atrium_distance(side),
+                               0 };
             kit_show(&a->k, "balustrade", part, a->side[side], at);
         }
     }
@@ -344,7 +370,8 @@ static void add_beams(atrium *a)
         const float half = i ? atrium_half_z : atrium_half_x + atrium_gallery;
         shape s = { .tiling = 1.0f };
         for (float x = 0.375f - half; x < half; x += 0.75f)
-            shape_box(&s, (float[3]){ x - 0.07f, 8.38f, 0.05f }, (float[3]){ x + 0.07f, 8.64f, 3.05f });
+            shape_box(&s, (float[3]){ x - 0.07f, 8.38f, 0.05f },
+                      (float[3]){ x + 0.07f, 8.64f, 3.05f });
         const int part = kit_part(&a->k, "beams", &s, a->material[ATRIUM_WOOD]);
         for (int side = i; side < 4; side += 2) {
             const place at = { 0, 0, atrium_distance(side), 0 };
@@ -362,7 +389,8 @@ static void add_pilasters(atrium *a)
         shape s = { .tiling = 0.5f };
         shape_box(&s, (float[3]){ -0.19f, -0.02f, 2.86f }, (float[3]){ 0.19f, h, 3.05f });
         shape_box(&s, (float[3]){ -0.24f, -0.02f, 2.80f }, (float[3]){ 0.24f, 0.28f, 3.05f });
-        shape_box(&s, (float[3]){ -0.25f, h - 0.14f, 2.79f }, (float[3]){ 0.25f, h - 0.02f, 3.05f });
+        shape_box(&s, (float[3]){ -0.25f, h - 0.14f, 2.79f },
+                  (float[3]){ 0.25f, h - 0.02f, 3.05f });
         const int part = kit_part(&a->k, "pilaster", &s, a->material[ATRIUM_ASHLAR]);
         for (int side = 0; side < 4; ++side) {
             for (int k = 0; k <= atrium_bays(side); ++k) {

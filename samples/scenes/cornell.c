@@ -61,7 +61,8 @@ static void add_triangle(shape *s, const quad q, const int corner[3])
     uint32_t index[3];
     for (int i = 0; i < 3; ++i) {
         const int c = corner[i];
-        index[i] = shape_vertex(s, p[i], normal, c == 1 || c == 2 ? 1.0f : 0.0f, c / 2 ? 1.0f : 0.0f);
+        index[i] =
+            shape_vertex(s, p[i], normal, c == 1 || c == 2 ? 1.0f : 0.0f, c / 2 ? 1.0f : 0.0f);
     }
     if (!s->failed)
         shape_triangle(s, index[0], index[1], index[2]);

@@ -141,7 +141,8 @@ static void paving(float u, float v, float rgba[4])
     const float diamond = dx + dy; // from the nearest corner
     const float grain = cloud(u, v, 8, 121), fine = noise(u, v, 96, 96, 131);
     const int sx = (int) x, sy = (int) y;
-    tint(pale, 0.84f + 0.16f * hash_unit(sx, sy, 141) + 0.24f * (grain - 0.5f) + 0.06f * fine, rgba);
+    tint(pale, 0.84f + 0.16f * hash_unit(sx, sy, 141) + 0.24f * (grain - 0.5f) + 0.06f * fine,
+         rgba);
     blend(rgba, gap, 1.0f - step_smooth(0.006f, 0.014f, fminf(dx, dy)));
     if (diamond < 0.24f) {
         tint(dark, 0.8f + 0.2f * hash_unit(cx % 2, cy % 2, 151) + 0.5f * (grain - 0.5f), rgba);
@@ -171,7 +172,7 @@ static void clay(float u, float v, float rgba[4])
 
 static void wood(float u, float v, float rgba[4])
 {
-    static const float heart[3] = { 0.30f, 0.17f, 0.09f };
+    static const float heart[3] = { 0.38f, 0.24f, 0.14f };
     const float x = 5.0f * u;
     const int plank = (int) x;
     const float edge = fminf(x - (float) plank, (float) (plank + 1) - x);
@@ -192,7 +193,8 @@ static void fabric(float u, float v, float rgba[4])
     const float lx = fabsf(4.0f * u - (float) (int) (4.0f * u) - 0.5f);
     const float ly = fabsf(2.0f * v - (float) (int) (2.0f * v) - 0.5f);
     const float figure = step_smooth(0.03f, 0.05f, fabsf(lx + ly - 0.5f));
-    const float shade = (0.80f + 0.12f * figure) * thread * (0.92f + 0.16f * noise(u, v, 16, 64, 241));
+    const float shade =
+        (0.80f + 0.12f * figure) * thread * (0.92f + 0.16f * noise(u, v, 16, 64, 241));
     tint((const float[3]){ 1.0f, 1.0f, 1.0f }, clamp01(shade), rgba);
 }
 
@@ -203,17 +205,18 @@ static float leaf_inside(float x, float y)
     if (y <= 0.0f || y >= 1.0f)
         return 0.0f;
     // Broad near the stalk, pointed at the tip, with a toothed edge.
-    const float half = 1.15f * y * (1.0f - y) * (1.25f - 0.9f * y) + 0.02f * (1.0f - y) *
-                       fabsf(12.0f * y - (float) (int) (12.0f * y) - 0.5f);
+    const float half = 1.15f * y * (1.0f - y) * (1.25f - 0.9f * y) +
+                       0.02f * (1.0f - y) * fabsf(12.0f * y - (float) (int) (12.0f * y) - 0.5f);
     return clamp01(1.0f - fabsf(x) / half);
 }
 
 static void leaves(float u, float v, float rgba[4])
 {
     // Nine leaves around the card's middle; the last ones lie on top.
-    static const float leaf[9][4] = { // foot x, foot y, direction cos, sin; length below
-        { 0.50f, 0.52f, 0.00f, 1.00f },  { 0.48f, 0.50f, 0.77f, 0.64f },
-        { 0.52f, 0.50f, -0.77f, 0.64f }, { 0.50f, 0.48f, 0.98f, -0.17f },
+    static const float leaf[9][4] = {
+        // foot x, foot y, direction cos, sin; length below
+        { 0.50f, 0.52f, 0.00f, 1.00f },   { 0.48f, 0.50f, 0.77f, 0.64f },
+        { 0.52f, 0.50f, -0.77f, 0.64f },  { 0.50f, 0.48f, 0.98f, -0.17f },
         { 0.50f, 0.48f, -0.98f, -0.17f }, { 0.52f, 0.50f, 0.64f, -0.77f },
         { 0.48f, 0.50f, -0.64f, -0.77f }, { 0.46f, 0.60f, 0.34f, 0.94f },
         { 0.54f, 0.44f, -0.17f, -0.98f },
@@ -237,11 +240,10 @@ static void leaves(float u, float v, float rgba[4])
 }
 
 static void (*const painters[PATTERN_COUNT])(float u, float v, float rgba[4]) = {
-    [PATTERN_ASHLAR] = ashlar,         [PATTERN_LIMESTONE] = limestone,
-    [PATTERN_PLASTER] = plaster,       [PATTERN_BRICK] = bricks,
-    [PATTERN_PAVING] = paving,         [PATTERN_TERRACOTTA] = terracotta,
-    [PATTERN_CLAY] = clay,             [PATTERN_WOOD] = wood,
-    [PATTERN_FABRIC] = fabric,         [PATTERN_LEAVES] = leaves,
+    [PATTERN_ASHLAR] = ashlar, [PATTERN_LIMESTONE] = limestone, [PATTERN_PLASTER] = plaster,
+    [PATTERN_BRICK] = bricks,  [PATTERN_PAVING] = paving,       [PATTERN_TERRACOTTA] = terracotta,
+    [PATTERN_CLAY] = clay,     [PATTERN_WOOD] = wood,           [PATTERN_FABRIC] = fabric,
+    [PATTERN_LEAVES] = leaves,
 };
 
 enum { ENCODE_STEPS = 4096 };

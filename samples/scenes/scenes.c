@@ -72,9 +72,11 @@ fg_status scenes_open(const fg_log *log, const char *name, ag_scene **out)
     if (root && root[0] && name[0] && find_below(root, name, path, sizeof path))
         return ag_scene_load(log, path, out);
     if (root && root[0])
-        fg_logf(log, FG_LOG_ERROR,
-                "%s: no such scene: not a built-in one, not a file, and no such .gltf or .glb below "
-                "AFTERGLOW_SCENES (%s)", name, root);
+        fg_logf(
+            log, FG_LOG_ERROR,
+            "%s: no such scene: not a built-in one, not a file, and no such .gltf or .glb below "
+            "AFTERGLOW_SCENES (%s)",
+            name, root);
     else
         fg_logf(log, FG_LOG_ERROR,
                 "%s: no such scene: not a built-in one and not a file; AFTERGLOW_SCENES is not set",

@@ -196,8 +196,7 @@ static void lathe_ring(shape *s, const shape_lathe_desc *d, int i, int end, floa
         const float df = -0.5f * d->lobe_depth * lobes * sinf(lobes * turn);
         const float c = cosf(turn), q = sinf(turn);
         const float p[3] = { radius * f * c, y, radius * f * q };
-        const float normal[3] = { n[0] * (f * c + df * q), n[1] * f * f,
-                                  n[0] * (f * q - df * c) };
+        const float normal[3] = { n[0] * (f * c + df * q), n[1] * f * f, n[0] * (f * q - df * c) };
         shape_vertex(s, p, normal, angle * widest, v);
     }
 }

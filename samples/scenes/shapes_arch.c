@@ -133,7 +133,8 @@ void shape_archivolt(shape *s, const shape_archivolt_desc *desc)
     }
     for (int k = 0; k < 2; ++k) { // its two feet
         const float x = k ? -1.0f : 1.0f;
-        const float a[2] = { x * desc->inner, desc->spring }, b[2] = { x * desc->outer, desc->spring };
+        const float a[2] = { x * desc->inner, desc->spring },
+                    b[2] = { x * desc->outer, desc->spring };
         const float down[2][2] = { { 0, -1 }, { 0, -1 } };
         across_wall(s, a, b, down, half, 0.0f);
     }
@@ -151,7 +152,8 @@ static void frame_piece(shape *s, const shape_frame_desc *d, const frame_edge *e
 {
     const bool along_z = side % 2;
     const float sign = side < 2 ? 1.0f : -1.0f;
-    const float normal[3] = { along_z ? sign * e->out : 0.0f, e->up, along_z ? 0.0f : sign * e->out };
+    const float normal[3] = { along_z ? sign * e->out : 0.0f, e->up,
+                              along_z ? 0.0f : sign * e->out };
     const uint32_t first = (uint32_t) s->vertex_count;
     for (int i = 0; i < 4; ++i) {
         const float *at = i & 2 ? e->b : e->a;
@@ -175,8 +177,9 @@ void shape_frame(shape *s, const shape_frame_desc *desc)
     for (int i = 0; i < desc->count; ++i) {
         const float *a = desc->profile[i], *b = desc->profile[(i + 1) % desc->count];
         const float turn = area > 0.0f ? 1.0f : -1.0f;
-        const frame_edge edge = { a, b, v, hypotf(b[0] - a[0], b[1] - a[1]),
-                                  turn * (b[1] - a[1]), turn * (a[0] - b[0]) };
+        const frame_edge edge = {
+            a, b, v, hypotf(b[0] - a[0], b[1] - a[1]), turn * (b[1] - a[1]), turn * (a[0] - b[0])
+        };
         for (int side = 0; side < 4 && !s->failed; ++side)
             frame_piece(s, desc, &edge, side);
         v -= edge.length;
