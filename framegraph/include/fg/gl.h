@@ -18,6 +18,9 @@ FG_BEGIN
 //
 // A host with a context of its own needs only the device. GL entry points come
 // from libepoxy; callbacks may include <epoxy/gl.h>.
+//
+// Thread: every call that takes a device comes from the thread that has its context
+// current; a context is current in one thread at a time.
 
 // ---- headless context ---------------------------------------------------------
 
@@ -37,7 +40,7 @@ FG_API void fg_gl_context_destroy(fg_gl_context *ctx); // accepts NULL
 FG_API FG_NODISCARD fg_status fg_gl_context_make_current(fg_gl_context *ctx);
 
 // Describes EGL device n (from 1): renderer and version if a context can be had.
-// false past the end. Strings are cut to fit.
+// false past the end. Strings are cut to fit. What is current stays current.
 typedef struct fg_gl_device_info {
     char name[128];     // EGL's name: driver, DRM node or "surfaceless"
     char renderer[128]; // "" if it gives no OpenGL 4.5 core
@@ -57,10 +60,38 @@ typedef struct fg_gl_device_desc {
 
 // For the context that is current. If that is a debug context, driver messages go
 // to the log. Sets glClipControl(LOWER_LEFT, ZERO_TO_ONE) and seamless cube maps.
+//
+// What a callback finds, whatever ran before it:
+//   program 0; a vertex array without attributes bound; a debug group named as the pass;
+//   in raster passes besides: the framebuffer of what it writes, with a viewport over it;
+//   depth test on, GREATER_OR_EQUAL (reversed: 1 is near, 0 far), depth writes on unless
+//   depth is only read; depth range [0, 1]; the clip control above; no culling, front faces
+//   counter-clockwise; blending, scissor, stencil, polygon offset, depth clamp, logic operation,
+//   primitive restart, sample masks and dithering off; polygons filled; all colour channels
+//   written; GL_FRAMEBUFFER_SRGB on.
+//   A raster pass that writes no texture gets framebuffer 0, GL_FRAMEBUFFER_SRGB off, and
+//   the viewport as it was: it shows something, and sets these itself.
+// Bindings of textures, samplers, images, buffers and pixel transfer are not reset: a pass
+// binds all that its shaders name. After a frame framebuffer, program and vertex array are 0;
+// a host that draws on sets the rest of its state anew.
+//
+// Clears: an sRGB texture takes linear values; a buffer is filled with `value`[0] as 32 bits,
+// 3D textures are cleared in all slices. Poison in depth formats is 0xcdcd / 0xffff, about
+// 0.8: drivers do not keep a NaN there.
+//
+// Timings belong to one graph at a time: where several share a device, the one that
+// compiled last resets them.
+//
 // Errors: FG_ERR_UNSUPPORTED without OpenGL 4.5; FG_ERR_MEMORY.
 FG_API FG_NODISCARD fg_status fg_gl_device_create(const fg_gl_device_desc *desc, fg_device **out);
 
-// GL errors and high-severity messages seen since creation. Tests demand 0.
+// Framebuffers are kept by the names of what they hold. Call this before deleting a texture
+// that a graph imported, or a new texture of the same name would not be drawn to.
+FG_API void fg_gl_forget_texture(fg_device *dev, uint32_t object);
+
+// GL errors and high-severity messages seen since creation. Tests demand 0. Sees every
+// error in a debug context; in others those of allocations only. A shader that does not
+// compile, and an allocation refused for want of memory, are statuses and not counted.
 FG_API int fg_gl_error_count(const fg_device *dev);
 FG_API const char *fg_gl_renderer(const fg_device *dev);
 FG_API const char *fg_gl_version(const fg_device *dev);
@@ -79,26 +110,32 @@ typedef struct fg_gl_shader {
 } fg_gl_shader;
 
 typedef struct fg_gl_program_desc {
-    const fg_gl_shader *shaders[3]; // ends at NULL: {comp} or {vert, frag}
+    const fg_gl_shader *shaders[3]; // ends at NULL: {comp}, {vert, frag} or {vert, geom, frag}
     const char *defines;            // "SHADOWS=1;LIGHTS=4": inserted after #version. NULL: none.
 } fg_gl_program_desc;
 
 // The program of this permutation, built on first use and then looked up without
-// allocation; 0 and a log line with the driver's message if it does not build. The
-// device owns it.
+// allocation; 0 if it does not build, and, once, a log line with shader, defines and the
+// driver's message. The device owns it. With a shader_dir its files are looked at in each
+// call; while a changed source does not build, the last good program is what it gives.
 FG_API uint32_t fg_gl_program(fg_device *dev, const fg_gl_program_desc *desc);
 
 // ---- helpers for callbacks ------------------------------------------------------------
 
+// All clamp to the edge. Integer textures take NEAREST alone.
 typedef enum fg_gl_filter {
-    FG_GL_NEAREST = 0,
-    FG_GL_LINEAR,
-    FG_GL_LINEAR_MIPMAP,
-    FG_GL_SHADOW, // linear, compare GREATER_OR_EQUAL (reversed depth)
+    FG_GL_NEAREST = 0,   // of mip 0; texelFetch() reaches the others
+    FG_GL_LINEAR,        // of mip 0
+    FG_GL_LINEAR_MIPMAP, // trilinear; textureLod() at a whole level is that level alone
+    FG_GL_SHADOW,        // of mip 0, for sampler2DShadow and its kin: linear, compare
+                         // GREATER_OR_EQUAL (reversed depth): 1 where lit
 } fg_gl_filter;
 
-// Bind what the pass declared; fg_run_object() refuses the rest.
-FG_API void fg_gl_sample(const fg_run *run, int unit, fg_res tex, fg_gl_filter filter); // clamps
+// Bind what the pass declared; fg_run_object() refuses the rest. An optional read that is
+// absent unbinds the unit.
+FG_API void fg_gl_sample(const fg_run *run, int unit, fg_res tex, fg_gl_filter filter);
+// `access` is GL_READ_ONLY, GL_WRITE_ONLY or GL_READ_WRITE. Arrays, cubes and 3D textures are
+// bound with all their layers.
 FG_API void fg_gl_image(const fg_run *run, int unit, fg_res tex, int mip, unsigned access,
                         fg_format format);
 FG_API void fg_gl_storage(const fg_run *run, int binding, fg_res buf);

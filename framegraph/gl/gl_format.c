@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "gl_priv.h"
+
+static const gl_format formats[FG_FORMAT_COUNT] = {
+    [FG_RGBA16F] = { GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT },
+    [FG_RGBA32F] = { GL_RGBA32F, GL_RGBA, GL_FLOAT },
+    [FG_RG32F] = { GL_RG32F, GL_RG, GL_FLOAT },
+    [FG_RG16F] = { GL_RG16F, GL_RG, GL_HALF_FLOAT },
+    [FG_R32F] = { GL_R32F, GL_RED, GL_FLOAT },
+    [FG_R16F] = { GL_R16F, GL_RED, GL_HALF_FLOAT },
+    [FG_R11G11B10F] = { GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV },
+    [FG_RGBA8] = { GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE },
+    [FG_SRGB8_ALPHA8] = { GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE },
+    [FG_RGB10_A2] = { GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV },
+    [FG_RG16] = { GL_RG16, GL_RG, GL_UNSIGNED_SHORT },
+    [FG_RG16_SNORM] = { GL_RG16_SNORM, GL_RG, GL_SHORT },
+    [FG_RG8] = { GL_RG8, GL_RG, GL_UNSIGNED_BYTE },
+    [FG_R8] = { GL_R8, GL_RED, GL_UNSIGNED_BYTE },
+    [FG_RGBA32UI] = { GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT },
+    [FG_RG32UI] = { GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT },
+    [FG_R32UI] = { GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT },
+    [FG_R16UI] = { GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT },
+    [FG_R8UI] = { GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE },
+    [FG_DEPTH32F] = { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT },
+    [FG_DEPTH16] = { GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT },
+    [FG_DEPTH24_STENCIL8] = { GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8 },
+    [FG_DEPTH32F_STENCIL8] = { GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL,
+                               GL_FLOAT_32_UNSIGNED_INT_24_8_REV },
+};
+
+const gl_format *gl_format_get(fg_format format)
+{
+    return &formats[format];
+}
+
+GLenum gl_target(const fg_tex_desc *desc)
+{
+    if (desc->depth > 0)
+        return GL_TEXTURE_3D;
+    if (desc->cube)
+        return desc->layers > 6 ? GL_TEXTURE_CUBE_MAP_ARRAY : GL_TEXTURE_CUBE_MAP;
+    if (desc->samples > 1)
+        return desc->layers > 0 ? GL_TEXTURE_2D_MULTISAMPLE_ARRAY : GL_TEXTURE_2D_MULTISAMPLE;
+    return desc->layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "gl_priv.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void gl_timers_forget(gl_device *d)
+{
+    gl_timers *t = &d->timers;
+    for (int i = 0; i < GL_TIMER_FRAMES; ++i) {
+        t->frames[i].last = 0;
+        if (t->frames[i].issued)
+            memset(t->frames[i].issued, 0, (size_t) t->capacity * sizeof *t->frames[i].issued);
+    }
+    if (t->results)
+        memset(t->results, 0, (size_t) t->capacity * sizeof *t->results);
+    t->current = -1;
+}
+
+void gl_timers_destroy(gl_device *d)
+{
+    gl_timers *t = &d->timers;
+    for (int i = 0; i < GL_TIMER_FRAMES; ++i) {
+        if (t->frames[i].queries)
+            glDeleteQueries(2 * t->capacity, t->frames[i].queries);
+        free(t->frames[i].queries);
+        free(t->frames[i].issued);
+    }
+    free(t->results);
+    *t = (gl_timers){ .current = -1 };
+}
+
+// Called in the first frame after a compile that brought more passes; what is under way is lost.
+static fg_status grow(gl_device *d, int timers)
+{
+    gl_timers *t = &d->timers;
+    int capacity = 32;
+
+    while (capacity < timers)
+        capacity *= 2;
+    gl_timers_destroy(d);
+    const size_t n = (size_t) capacity;
+    t->results = calloc(n, sizeof *t->results);
+    bool ok = t->results != NULL;
+    for (int i = 0; i < GL_TIMER_FRAMES; ++i) {
+        gl_timer_frame *f = &t->frames[i];
+        f->queries = calloc(2 * n, sizeof *f->queries);
+        f->issued = calloc(n, sizeof *f->issued);
+        ok = ok && f->queries && f->issued;
+    }
+    t->capacity = ok ? capacity : 0;
+    if (!ok) {
+        gl_timers_destroy(d);
+        fg_logf(d->log, FG_LOG_ERROR, "gl device: out of memory for %d timers", timers);
+        return FG_ERR_MEMORY;
+    }
+    for (int i = 0; i < GL_TIMER_FRAMES; ++i)
+        glCreateQueries(GL_TIMESTAMP, 2 * capacity, t->frames[i].queries);
+    return FG_OK;
+}
+
+static uint64_t query_ns(GLuint query)
+{
+    GLuint64 ns = 0;
+    glGetQueryObjectui64v(query, GL_QUERY_RESULT, &ns);
+    return ns;
+}
+
+static void read_frame(gl_timers *t, gl_timer_frame *f)
+{
+    uint64_t first = UINT64_MAX;
+    for (int i = 0; i < t->capacity; ++i) {
+        if (!f->issued[i])
+            continue;
+        const uint64_t begin = query_ns(f->queries[2 * i]);
+        const uint64_t end = query_ns(f->queries[2 * i + 1]);
+        first = begin < first ? begin : first;
+        t->results[i] = (gl_timer_result){
+            .start_ms = (double) begin, // made relative below
+            .ms = end > begin ? (double) (end - begin) * 1e-6 : 0.0,
+            .frame = f->frame,
+            .valid = true,
+        };
+    }
+    for (int i = 0; i < t->capacity; ++i) {
+        if (f->issued[i])
+            t->results[i].start_ms = (t->results[i].start_ms - (double) first) * 1e-6;
+        f->issued[i] = false;
+    }
+    f->last = 0;
+}
+
+void gl_timers_collect(gl_device *d)
+{
+    gl_timers *t = &d->timers;
+    for (int i = 0; i < GL_TIMER_FRAMES; ++i) {
+        // Oldest first: the ring's next place holds it.
+        const int place = (t->next + i) % GL_TIMER_FRAMES;
+        gl_timer_frame *f = &t->frames[place];
+        GLuint there = 0;
+        if (!f->last || place == t->current)
+            continue;
+        glGetQueryObjectuiv(f->last, GL_QUERY_RESULT_AVAILABLE, &there);
+        if (!there)
+            return; // what came later is not there either
+        read_frame(t, f);
+    }
+}
+
+fg_status gl_timers_begin_frame(gl_device *d, uint64_t frame, int timers)
+{
+    gl_timers *t = &d->timers;
+    if (timers > t->capacity) {
+        const fg_status status = grow(d, timers);
+        if (status)
+            return status;
+    }
+    gl_timers_collect(d);
+    t->current = -1;
+    if (timers == 0 || t->frames[t->next].last)
+        return FG_OK; // the GPU is further behind than the ring is long: no timing of this frame
+    t->current = t->next;
+    t->next = (t->next + 1) % GL_TIMER_FRAMES;
+    t->frames[t->current].frame = frame;
+    return FG_OK;
+}
+
+void gl_timers_end_frame(gl_device *d)
+{
+    d->timers.current = -1;
+}
+
+void gl_timers_mark(gl_device *d, int timer, bool end)
+{
+    gl_timers *t = &d->timers;
+    if (t->current < 0 || timer < 0 || timer >= t->capacity)
+        return;
+    gl_timer_frame *f = &t->frames[t->current];
+    const GLuint query = f->queries[2 * timer + end];
+    glQueryCounter(query, GL_TIMESTAMP);
+    if (end) {
+        f->issued[timer] = true;
+        f->last = query;
+    }
+}
+
+bool gl_timers_read(fg_device *dev, int timer, double *start_ms, double *ms, uint64_t *frame)
+{
+    const gl_timers *t = &((gl_device *) dev)->timers;
+    if (timer < 0 || timer >= t->capacity || !t->results[timer].valid)
+        return false;
+    *start_ms = t->results[timer].start_ms;
+    *ms = t->results[timer].ms;
+    *frame = t->results[timer].frame;
+    return true;
+}
