@@ -17,7 +17,7 @@ FG_BEGIN
 //     ... callback: ag_gpu_scene_draw(gpu, run, &res);
 //     ag_gpu_scene_destroy(gpu);
 //
-// Layouts that shaders read are in passes/gpu_scene/scene_shared.h.
+// Layouts that shaders read are in pass/scene_shared.h.
 // Thread: the one that has the context.
 typedef struct ag_gpu_scene ag_gpu_scene;
 typedef struct ag_view ag_view; // pass/frame.h
@@ -33,9 +33,8 @@ typedef struct ag_gpu_scene_desc {
     uint64_t features; // counted as present beside the scene's own: permutations keep their code
 } ag_gpu_scene_desc;
 
-// Errors: FG_ERR_UNSUPPORTED, the lights need more than AG_MAX_FACES faces, or an image or buffer
-// is
-//         beyond the device; FG_ERR_MEMORY.
+// Errors: FG_ERR_UNSUPPORTED, the lights need more than AG_MAX_FACES faces, or a texture is beyond
+//         the device; FG_ERR_MEMORY.
 FG_API FG_NODISCARD fg_status ag_gpu_scene_create(const ag_gpu_scene_desc *desc,
                                                   ag_gpu_scene **out);
 FG_API void ag_gpu_scene_destroy(ag_gpu_scene *s); // accepts NULL
@@ -68,9 +67,12 @@ FG_API ag_scene_res ag_gpu_scene_import(const ag_gpu_scene *s, fg_graph *g);
         (res).materials, FG_USE_STORAGE                                                            \
     }
 
-// The permutation that the scene needs: "TEXTURES=1;MASK=1" and so on, for the vertex and fragment
-// shaders that include passes/gpu_scene/scene.glsl and material.glsl. Static while `s` lives.
-FG_API const char *ag_gpu_scene_defines(const ag_gpu_scene *s);
+// The program that draws the scene into `fragment`, which includes passes/gpu_scene/material.glsl,
+// in the permutation that the scene needs: TEXTURES, MASK, GLOSSY, EMISSIVE as far as its features
+// go and `defines` allows ("FACE=1" draws through light face `layout(location = 0) uniform int`).
+// 0, with a log line, if it does not build. A lookup after the first call.
+FG_API uint32_t ag_gpu_scene_program(const ag_gpu_scene *s, const fg_gl_shader *fragment,
+                                     uint64_t features, const char *defines);
 FG_API uint64_t ag_gpu_scene_features(const ag_gpu_scene *s);
 
 // Draws every instance by one indirect multi-draw, with `program`, no culling, depth test

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <pass/gather.h>
+
+#include "gather_comp.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <string.h>
+
+// More receivers an invocation share each VPL's load. A CPU's vector unit gains up to 16; a GPU
+// runs out of registers first.
+static int suitable_block(fg_device *device)
+{
+    const char *renderer = fg_gl_renderer(device);
+    return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ? 16 : 4;
+}
+
+static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
+{
+    static const char *const defines[3][3] = {
+        { "BLOCK_X=1;BLOCK_Y=1;CLAMP=1", "BLOCK_X=2;BLOCK_Y=2;CLAMP=1",
+          "BLOCK_X=4;BLOCK_Y=4;CLAMP=1" },
+        { "BLOCK_X=1;BLOCK_Y=1;CLAMP=0", "BLOCK_X=2;BLOCK_Y=2;CLAMP=0",
+          "BLOCK_X=4;BLOCK_Y=4;CLAMP=0" },
+        { "BLOCK_X=1;BLOCK_Y=1;CLAMP=2", "BLOCK_X=2;BLOCK_Y=2;CLAMP=2",
+          "BLOCK_X=4;BLOCK_Y=4;CLAMP=2" },
+    };
+    const int block = pass->block ? pass->block : suitable_block(device);
+    const fg_gl_program_desc desc = {
+        .shaders = { &gather_comp },
+        .defines = defines[pass->clamp][block == 16  ? 2
+                                        : block == 4 ? 1
+                                                     : 0],
+    };
+    return fg_gl_program(device, &desc);
+}
+
+static fg_status run_gather(const fg_run *run, void *user)
+{
+    const ag_gather_pass *pass = user;
+    fg_device *device = fg_run_device(run);
+    const uint32_t program = gather_program(device, pass);
+    if (!program)
+        return FG_ERR_SHADER;
+    fg_gl_uniform(run, 0, pass->scene.view);
+    fg_gl_sample(run, 0, pass->position, FG_GL_NEAREST);
+    fg_gl_sample(run, 1, pass->normal, FG_GL_NEAREST);
+    fg_gl_storage(run, 0, pass->vpls);
+    fg_gl_storage(run, 1, pass->count);
+    fg_gl_image(run, 0, pass->out, 0, GL_WRITE_ONLY, FG_RGBA32F);
+    glProgramUniform1f(program, 0, pass->clamp_d2);
+    int size[3];
+    fg_run_size(run, pass->out, 0, size);
+    const int block = pass->block ? pass->block : suitable_block(device);
+    const int edge = block == 16 ? 32 : block == 4 ? 16 : 8; // pixels of one work group
+    glUseProgram(program);
+    fg_gl_dispatch_2d(size[0], size[1], edge, edge);
+    return FG_OK;
+}
+
+void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,
+                       const ag_gbuffer *gbuffer, const ag_vpl_pass *vpls,
+                       const ag_gather_desc *desc)
+{
+    char name[64], texture[64];
+    *pass = (ag_gather_pass){
+        .scene = *scene,
+        .position = gbuffer->position,
+        .normal = gbuffer->normal,
+        .vpls = vpls->vpls,
+        .count = vpls->count,
+        .clamp = desc->clamp,
+        .clamp_d2 = desc->clamp_d2,
+        .block = desc->block,
+    };
+    if (desc->block != 0 && desc->block != 1 && desc->block != 4 && desc->block != 16) {
+        fg_fail(g, "%s: block is %d, must be 1, 4 or 16", desc->prefix, desc->block);
+        return;
+    }
+    snprintf(name, sizeof name, "%s.gather", desc->prefix);
+    snprintf(texture, sizeof texture, "%s.indirect", desc->prefix);
+    pass->out = fg_texture(g, texture, &(fg_tex_desc){ .format = FG_RGBA32F });
+    const fg_pass_desc gather = {
+        .name = name,
+        .kind = FG_KIND_COMPUTE,
+        .reads = {
+            { scene->view, FG_USE_UNIFORM },
+            { pass->position },
+            { pass->normal },
+            { pass->vpls },
+            { pass->count },
+        },
+        .writes = { { pass->out, FG_USE_IMAGE, FG_LOAD_DISCARD } },
+        .run = run_gather,
+        .user = pass,
+    };
+    fg_passes(g, &gather, 1);
+}

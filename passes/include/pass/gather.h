@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#ifndef PASS_GATHER_H
+#define PASS_GATHER_H
+
+#include <pass/vpl.h>
+
+FG_BEGIN
+
+// What keeps a VPL's light finite near it.
+typedef enum ag_clamp {
+    AG_CLAMP_DISC = 0, // pi d^2 + A_j: the VPL is a disc of its own area. No length is tuned.
+    AG_CLAMP_NONE,     // pi d^2
+    AG_CLAMP_CONSTANT, // pi max(d^2, clamp_d2)
+} ag_clamp;
+
+// Sums all VPLs at every pixel, none of them shadowed: pass "PREFIX.gather".
+//
+//     E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
+//
+// Shapes: out RGBA32F of the frame's size; a 1. Left out where there is no light or no geometry.
+// Units:  E / pi, W/(m^2 sr).
+// Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5. Departs from it: see gather.comp.
+typedef struct ag_gather_pass {
+    ag_scene_res scene;
+    fg_res position, normal, vpls, count;
+    fg_res out;
+    ag_clamp clamp;
+    float clamp_d2;
+    int block; // receivers of one invocation: 1, 4 or 16
+} ag_gather_pass;
+
+typedef struct ag_gather_desc {
+    const char *prefix;
+    ag_clamp clamp;
+    float clamp_d2; // m^2, > 0; CONSTANT only
+    int block;      // 1, 4 or 16; 0: what suits the device (16 on a CPU, else 4)
+} ag_gather_desc;
+
+FG_API void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,
+                              const ag_gbuffer *gbuffer, const ag_vpl_pass *vpls,
+                              const ag_gather_desc *desc);
+
+FG_END
+
+#endif // PASS_GATHER_H
