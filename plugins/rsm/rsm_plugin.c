@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include <gi/plugin.h>
+#include <pass/gather.h>
+#include <pass/readback.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+static const char *const pattern_names[] = { "all", "regular", "stratified", NULL };
+static const char *const clamp_names[] = { "disc", "none", "constant", NULL };
+static const char *const solid_angle_names[] = { "exact", "equal", NULL };
+static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, 16384, NAN };
+
+enum { RSM_SIZE, PATTERN, VPLS, CLAMP, CLAMP_D2, SOLID_ANGLE, SEED, PARAM_COUNT };
+
+static const gi_param params[] = {
+    [RSM_SIZE] = { .name = "rsm_size",
+                   .type = GI_INT,
+                   .unit = "texels",
+                   .min = 1,
+                   .max = 1024,
+                   .def = 256,
+                   .power_of_two = true,
+                   .help = "edge of a reflective shadow map" },
+    [PATTERN] = { .name = "pattern",
+                  .type = GI_ENUM,
+                  .unit = "1",
+                  .def = AG_VPL_REGULAR,
+                  .choices = pattern_names,
+                  .help = "which texels become VPLs: all, or one of each block" },
+    [VPLS] = { .name = "vpls",
+               .type = GI_INT,
+               .unit = "1",
+               .min = 1,
+               .max = 1048576,
+               .def = 1024,
+               .quality = true,
+               .sweep = vpl_sweep,
+               .help =
+                   "at most this many of each map, unless all; rounded down to a power of four" },
+    [CLAMP] = { .name = "clamp",
+                .type = GI_ENUM,
+                .unit = "1",
+                .def = AG_CLAMP_DISC,
+                .choices = clamp_names,
+                .help = "what bounds a near VPL: its own area, nothing, or clamp_d2" },
+    [CLAMP_D2] = { .name = "clamp_d2",
+                   .type = GI_FLOAT,
+                   .unit = "m^2",
+                   .min = 1e-12,
+                   .max = 1e12,
+                   .def = 1,
+                   .help = "least squared distance, with clamp=constant" },
+    [SOLID_ANGLE] = { .name = "solid_angle",
+                      .type = GI_ENUM,
+                      .unit = "1",
+                      .def = 0,
+                      .choices = solid_angle_names,
+                      .help = "of a texel: its own, or the paper's equal share (eq. 4)" },
+    [SEED] = { .name = "seed",
+               .type = GI_INT,
+               .unit = "1",
+               .min = 0,
+               .max = 4294967295.0,
+               .def = 1,
+               .help = "of the stratified pattern" },
+    { .name = NULL },
+};
+
+typedef struct rsm {
+    gi_env env;
+    gi_value values[PARAM_COUNT];
+    ag_rsm_pass map;
+    ag_vpl_pass vpl;
+    ag_gather_pass gather;
+    ag_readback count;
+} rsm;
+
+static fg_status rsm_set(void *self, const gi_value *values)
+{
+    rsm *r = self;
+    for (int i = 0; i < PARAM_COUNT; i++)
+        r->values[i] = values[i];
+    return FG_OK;
+}
+
+static void rsm_destroy(void *self)
+{
+    rsm *r = self;
+    if (!r)
+        return;
+    ag_readback_finish(&r->count);
+    free(r);
+}
+
+static fg_status rsm_create(const gi_env *env, const gi_value *values, void **self)
+{
+    rsm *r = calloc(1, sizeof *r);
+    *self = NULL;
+    if (!r || ag_readback_init(&r->count) != FG_OK) {
+        fg_logf(env->log, FG_LOG_ERROR, "rsm: out of memory");
+        rsm_destroy(r);
+        return FG_ERR_MEMORY;
+    }
+    r->env = *env;
+    *self = r;
+    return rsm_set(r, values);
+}
+
+// The finest grid of blocks that makes no more VPLs than asked for.
+static int grid_edge(const gi_value *values)
+{
+    int edge = 1;
+    while (4 * (int64_t) edge * edge <= values[VPLS].i && 2 * edge <= values[RSM_SIZE].i)
+        edge *= 2;
+    return edge;
+}
+
+static void rsm_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
+{
+    rsm *r = self;
+    const gi_value *v = r->values;
+    const ag_rsm_desc map = {
+        .prefix = "rsm",
+        .size = (int) v[RSM_SIZE].i,
+        .equal_solid_angle = v[SOLID_ANGLE].i != 0,
+    };
+    const ag_vpl_desc vpl = {
+        .prefix = "rsm",
+        .pattern = (ag_vpl_pattern) v[PATTERN].i,
+        .grid = grid_edge(v),
+        .seed = (uint32_t) v[SEED].i,
+    };
+    const ag_gather_desc gather = {
+        .prefix = "rsm",
+        .clamp = (ag_clamp) v[CLAMP].i,
+        .clamp_d2 = (float) v[CLAMP_D2].f,
+    };
+    ag_rsm_declare(&r->map, g, r->env.gpu_scene, &in->scene, &map);
+    ag_vpl_declare(&r->vpl, g, &r->map, &vpl);
+    ag_gather_declare(&r->gather, g, &in->scene, &in->gbuffer, &r->vpl, &gather);
+    ag_readback_declare(&r->count, g, "rsm.count_vpls", r->vpl.count, 4 * sizeof(uint32_t));
+    out->indirect = r->gather.out;
+}
+
+static int rsm_counters(void *self, gi_counter *out, int max)
+{
+    rsm *r = self;
+    uint32_t count[4] = { 0 };
+    const bool known = ag_readback_latest(&r->count, count);
+    const gi_counter counters[] = {
+        { "shadow_maps", 0 },
+        { "vpl_slots", r->vpl.capacity },
+        { "vpls", count[0] },
+    };
+    int n = 0;
+    for (; n < FG_COUNT(counters) - (known ? 0 : 1) && n < max; n++)
+        out[n] = counters[n];
+    return n;
+}
+
+static const gi_plugin plugin = {
+    .abi = GI_PLUGIN_ABI,
+    .name = "rsm",
+    .source = "Dachsbacher, Stamminger. Reflective Shadow Maps. I3D 2005; as gathered in Nichols, "
+              "Shopf, Wyman. Hierarchical Image-Space Radiosity. EGSR 2009",
+    .summary = "one diffuse bounce, gathered at every pixel from every VPL; no indirect visibility",
+    .params = params,
+    .needs = AG_FEATURE_LIGHT | AG_FEATURE_GEOMETRY,
+    .create = rsm_create,
+    .set = rsm_set,
+    .declare = rsm_declare,
+    .counters = rsm_counters,
+    .destroy = rsm_destroy,
+};
+
+GI_PLUGIN_ENTRY(rsm)
+{
+    return &plugin;
+}
