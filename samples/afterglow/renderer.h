@@ -58,6 +58,10 @@ FG_NODISCARD fg_status renderer_frame(renderer *r, double time);
 // Reads a layer of the last frame; waits.
 FG_NODISCARD fg_status renderer_read(renderer *r, renderer_layer layer, image *out);
 
+// The texture of a layer of the last frame, for a window: 0 if it was not asked for in `layers`.
+// Rows from the bottom up; valid until the next frame. POSITION is in render space.
+uint32_t renderer_texture(renderer *r, renderer_layer layer);
+
 fg_graph *renderer_graph(renderer *r);
 int renderer_counters(renderer *r, gi_counter *out, int max);
 
