@@ -14,12 +14,14 @@ typedef struct ag_rays ag_rays;
 
 typedef struct ag_rays_desc {
     const fg_log *log;
-    const ag_scene *scene; // Borrowed while this lives; read at creation and for masks.
+    const ag_scene *scene; // Borrowed while this lives; casts see it as it stands now, so
+                           // make new rays after ag_scene_set_time().
     double origin[3];      // Subtracted from all positions before they become floats: the camera.
     bool static_only;      // leave moving instances out
     int threads;           // for building; 0: all
 } ag_rays_desc;
 
+// Errors: FG_ERR_INVALID, FG_ERR_MEMORY; FG_ERR_UNSUPPORTED where Embree does not run.
 FG_API FG_NODISCARD fg_status ag_rays_create(const ag_rays_desc *desc, ag_rays **out);
 FG_API void ag_rays_destroy(ag_rays *rays); // accepts NULL
 
@@ -30,7 +32,8 @@ typedef struct ag_hit {
     float barycentric[2]; // of vertices 1 and 2
     float position[3]; // relative to `origin`, recomputed from the triangle, not along the ray
     float face_normal[3];    // unit, by winding (mirroring accounted for)
-    float normal[3]; // unit, interpolated, on the side of the winding; not yet turned to the viewer
+    float normal[3]; // unit, interpolated from the vertices; a front-facing viewer sees it as it
+                     // is, one behind the face sees its opposite
     float uv[2][2];
     float color[4];
     bool front;      // the ray came from the side that face_normal points to
