@@ -107,11 +107,12 @@ static void resolve_skins(ag_builder *b)
     const int *skins = p->instance_skins.data;
     ag_array next = { 0 };
     int *none = ag_array_push(&next, p->primitives.count, sizeof *none);
-    if (!none) {
+    if (!none && p->primitives.count > 0) {
         ag_builder_refuse(b, FG_ERR_MEMORY, "skins: out of memory");
         return;
     }
-    memset(none, 0xff, p->primitives.count * sizeof *none);
+    if (none)
+        memset(none, 0xff, p->primitives.count * sizeof *none);
     for (size_t i = 0; i < p->instances.count && b->status == FG_OK; i++) {
         ag_instance *instance = (ag_instance *) p->instances.data + i;
         instance->primitive = primitive_with_skin(b, instance->primitive, skins[i], &next);
