@@ -12,7 +12,7 @@ void *ag_array_push(ag_array *a, size_t more, size_t item_size)
 {
     if (more > SIZE_MAX / 4 / item_size - a->count)
         return NULL;
-    if (a->count + more > a->capacity) {
+    if (!a->data || a->count + more > a->capacity) {
         size_t capacity = a->capacity * 2 > a->count + more ? a->capacity * 2 : a->count + more;
         if (capacity < 4)
             capacity = 4;

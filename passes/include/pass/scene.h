@@ -33,7 +33,7 @@ typedef struct ag_vertex { // interleaved as the GPU reads it: 64 bytes
 typedef struct ag_primitive {
     uint32_t first_index, index_count; // a multiple of 3; indices count from first_vertex
     uint32_t first_vertex, vertex_count;
-    int material;             // always valid
+    int material;                 // always valid
     float box_min[3], box_max[3]; // of the vertices as they stand
     bool skinned;
 } ag_primitive;
@@ -47,8 +47,8 @@ typedef struct ag_instance {
 } ag_instance;
 
 typedef struct ag_texture_ref {
-    int texture; // -1: none
-    int uv;      // 0 or 1
+    int texture;        // -1: none
+    int uv;             // 0 or 1
     float transform[6]; // KHR_texture_transform: u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5;
                         // all zero means identity
 } ag_texture_ref;
@@ -98,8 +98,8 @@ typedef struct ag_light {
     char name[64];
     ag_light_kind kind;
     bool cosine;
-    double position[3];  // world
-    float direction[3];  // unit, the way the light goes
+    double position[3]; // world
+    float direction[3]; // unit, the way the light goes
     float intensity[3];
     float cos_inner, cos_outer;
     bool moving;
@@ -109,10 +109,10 @@ typedef struct ag_camera {
     char name[64];
     double world[16]; // looks along -Z; rigid, scale removed
     bool orthographic;
-    float yfov;       // radians, (0, pi)
+    float yfov;        // radians, (0, pi)
     float half_height; // orthographic, metres
-    float znear;      // > 0 for perspective. The far plane is at infinity for perspective cameras.
-    float zfar;       // orthographic only
+    float znear;       // > 0 for perspective. The far plane is at infinity for perspective cameras.
+    float zfar;        // orthographic only
     bool moving;
 } ag_camera;
 
@@ -121,9 +121,9 @@ typedef struct ag_camera {
 typedef enum ag_feature {
     AG_FEATURE_TEXTURES = 1 << 0,
     AG_FEATURE_ALPHA_MASK = 1 << 1,
-    AG_FEATURE_GLOSSY = 1 << 2,          // some metallic > 0 or roughness < 1
-    AG_FEATURE_EMISSIVE = 1 << 3,        // some surface emits
-    AG_FEATURE_AREA_LIGHT = 1 << 4,      // some emissive primitive gives at least 1 % of all flux
+    AG_FEATURE_GLOSSY = 1 << 2,     // some metallic > 0 or roughness < 1
+    AG_FEATURE_EMISSIVE = 1 << 3,   // some surface emits
+    AG_FEATURE_AREA_LIGHT = 1 << 4, // some emissive primitive gives at least 1 % of all flux
     AG_FEATURE_MOVING_GEOMETRY = 1 << 5,
     AG_FEATURE_MOVING_LIGHT = 1 << 6,
     AG_FEATURE_SEVERAL_LIGHTS = 1 << 7,
@@ -160,11 +160,11 @@ typedef struct ag_scene {
     int light_count;
     const ag_camera *cameras;
     int camera_count;
-    uint64_t features;      // ag_feature bits
+    uint64_t features;             // ag_feature bits
     double box_min[3], box_max[3]; // world bounds at the current time; min > max when empty
-    double duration;        // seconds of the longest animation, 0: none
-    double time;            // what set_time was last given
-    uint64_t geometry_revision; // changes when set_time moved a world or a vertex
+    double duration;               // seconds of the longest animation, 0: none
+    double time;                   // what set_time was last given
+    uint64_t geometry_revision;    // changes when set_time moved a world or a vertex
     uint64_t light_revision;
     int warning_count; // repairs made while loading
     ag_scene_private *priv;
@@ -200,8 +200,8 @@ FG_API FG_NODISCARD fg_status ag_scene_add_camera(ag_scene *scene, const ag_came
 // ---- building by code ------------------------------------------------------------
 //
 // The loader and the built-in scenes both go through the builder, so that both get
-// the same checks. Indices returned are those of the scene's arrays; -1 is a refused call: the first
-// refusal sticks, its message goes to the log, ag_scene_build() returns its status.
+// the same checks. Indices returned are those of the scene's arrays; -1 is a refused call: the
+// first refusal sticks, its message goes to the log, ag_scene_build() returns its status.
 
 typedef struct ag_builder ag_builder;
 
@@ -232,7 +232,7 @@ typedef struct ag_primitive_desc {
     size_t vertex_count;
     const uint32_t *indices;
     size_t index_count;
-    int material; // -1: the default one
+    int material;                // -1: the default one
     const uint16_t (*joints)[4]; // with `weights`: one per vertex, or both NULL
     const float (*weights)[4];
 } ag_primitive_desc;
@@ -243,8 +243,8 @@ typedef struct ag_node_desc {
     const char *name;
     int parent;
     double translation[3];
-    double rotation[4]; // zero means identity
-    double scale[3];    // zero means 1, 1, 1
+    double rotation[4];   // zero means identity
+    double scale[3];      // zero means 1, 1, 1
     const double *matrix; // [16] column-major, instead of the three above; NULL: not used
 } ag_node_desc;
 FG_API int ag_builder_node(ag_builder *b, const ag_node_desc *desc);
