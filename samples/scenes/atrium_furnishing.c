@@ -202,11 +202,11 @@ static void add_curtains(atrium *a)
     const shape_tube_desc bar = { .path = rod, .count = 2, .radius = 0.022f, .segments = 8 };
     const shape_cloth_desc cloth = { .width = 1.15f,
                                      .height = 2.6f,
-                                     .folds = 6,
-                                     .depth = 0.075f,
+                                     .folds = 5,
+                                     .depth = 0.065f,
                                      .gather = 0.35f,
-                                     .nu = 30,
-                                     .nv = 8 };
+                                     .nu = 40,
+                                     .nv = 6 };
     shape s = { 0 };
     shape_tube(&s, &bar);
     const int brass = kit_part(&a->k, "rod", &s, a->material[ATRIUM_BRASS]);

@@ -61,6 +61,10 @@ static bool find_below(const char *root, const char *name, char *out, size_t siz
 fg_status scenes_open(const fg_log *log, const char *name, ag_scene **out)
 {
     *out = NULL;
+    if (!name[0]) {
+        fg_logf(log, FG_LOG_ERROR, "scene: the name is empty");
+        return FG_ERR_INPUT;
+    }
     for (int i = 0; scenes_builtin(i); ++i) {
         if (!strcmp(name, scenes_builtin(i)->name))
             return scenes_builtin(i)->build(log, out);
@@ -69,17 +73,16 @@ fg_status scenes_open(const fg_log *log, const char *name, ag_scene **out)
         return ag_scene_load(log, name, out);
     char path[2304];
     const char *root = getenv("AFTERGLOW_SCENES");
-    if (root && root[0] && name[0] && find_below(root, name, path, sizeof path))
+    if (root && root[0] && find_below(root, name, path, sizeof path))
         return ag_scene_load(log, path, out);
     if (root && root[0])
-        fg_logf(
-            log, FG_LOG_ERROR,
-            "%s: no such scene: not a built-in one, not a file, and no such .gltf or .glb below "
-            "AFTERGLOW_SCENES (%s)",
-            name, root);
+        fg_logf(log, FG_LOG_ERROR,
+                "%.200s: no such scene: no built-in one, no file, no .gltf or .glb below "
+                "AFTERGLOW_SCENES (%.300s)",
+                name, root);
     else
         fg_logf(log, FG_LOG_ERROR,
-                "%s: no such scene: not a built-in one and not a file; AFTERGLOW_SCENES is not set",
+                "%.200s: no such scene: no built-in one, no file, and AFTERGLOW_SCENES is not set",
                 name);
     return FG_ERR_INPUT;
 }

@@ -338,7 +338,7 @@ static void cloth_point(const void *user, float u, float v, float p[3], float uv
     const float waist = 1.0f - d->gather / (1.0f + t * t);
     const float angle = 2.0f * pi * (float) d->folds * u + d->phase;
     const float depth = d->depth * (0.34f + 0.66f * v);
-    p[0] = (u - 0.5f) * d->width * waist + 0.25f * depth * sinf(2.0f * angle);
+    p[0] = (u - 0.5f) * d->width * waist + 0.1f * depth * sinf(2.0f * angle);
     p[1] = -v * d->height;
     p[2] = depth * (sinf(angle) + 0.35f * sinf(0.43f * angle + 1.7f + 2.0f * v));
     uv[0] = u * d->width * 1.5f; // the folds take up cloth
