@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "file.h"
+#include "host.h"
+#include "record.h"
+
+// Frames 0 to `last`, 1/60 s apart.
+static fg_status run_frames(renderer *r, int last)
+{
+    fg_status status = FG_OK;
+    for (int i = 0; i <= last && status == FG_OK; ++i) {
+        status = renderer_frame(r, i / 60.0);
+        if (last > 0)
+            cli_progress("frames", (i + 1.0) / (last + 1.0));
+    }
+    return status;
+}
+
+static fg_status write_stats(host *h, renderer *r, const renderer_desc *desc, int frame)
+{
+    enum { TIMED = 5 };
+    const int frames = h->o->timing_frames ? h->o->timing_frames : TIMED;
+    const setting s = { .plugin = desc->plugin, .values = (gi_value *) desc->values };
+    timing t;
+    cJSON *record = NULL;
+    fg_status status = timing_create(frames, &t);
+    if (status == FG_OK)
+        status = timing_run(&t, h->device, r, frame, frames);
+    if (status == FG_OK) {
+        record = record_create(h, r, &s, &t, desc->width, desc->height);
+        status = record ? record_write(&h->c->log, record, h->o->stats) : FG_ERR_MEMORY;
+    }
+    cJSON_Delete(record);
+    timing_finish(&t);
+    return status;
+}
+
+static int render(host *h, const setting *s, renderer_layer layer)
+{
+    const int width = h->o->width ? h->o->width : 512, height = h->o->height ? h->o->height : 512;
+    const int frame = h->o->frame > 0 ? h->o->frame : 0;
+    renderer *r = NULL;
+    image picture = { 0 };
+    renderer_desc desc = host_renderer_desc(h, s, width, height);
+    desc.layers = 1u << layer;
+    fg_status status = host_renderer(h, &desc, &r);
+    if (status == FG_OK)
+        status = run_frames(r, frame);
+    if (status == FG_OK)
+        status = renderer_read(r, layer, &picture);
+    // The picture is written last: with its figures or not at all.
+    if (status == FG_OK && h->o->stats)
+        status = write_stats(h, r, &desc, frame);
+    if (status == FG_OK)
+        status = image_write(&h->c->log, h->o->output, &picture, host_layer_kind(layer));
+    image_finish(&picture);
+    renderer_destroy(r);
+    return cli_status(h->c, status);
+}
+
+static int check(host *h, renderer_layer *layer)
+{
+    int code = host_layer(h->c, h->o->layer, LAYER_FINAL, layer);
+    if (code == EXIT_DONE && h->o->gi_count > 1)
+        code = cli_fail(h->c, EXIT_USAGE, "--gi: render takes one plugin, %d are given",
+                        h->o->gi_count);
+    if (code == EXIT_DONE)
+        code = host_check_output(h->c, h->o, true);
+    if (code == EXIT_DONE && h->o->stats)
+        code = cli_status(h->c, file_check(&h->c->log, h->o->stats));
+    return code;
+}
+
+static int run(cli *c, const options *o)
+{
+    host h;
+    setting settings[CLI_MAX_GI];
+    int count = 0;
+    renderer_layer layer;
+    host_init(&h, c, o);
+    int code = check(&h, &layer);
+    if (code == EXIT_DONE)
+        code = host_open_registry(&h);
+    if (code == EXIT_DONE)
+        code = host_settings(&h, false, settings, &count);
+    if (code == EXIT_DONE)
+        code = host_open_scene(&h, o->operands[0]);
+    if (code == EXIT_DONE)
+        code = host_open_device(&h);
+    if (code == EXIT_DONE)
+        code = render(&h, &settings[0], layer);
+    for (int i = 0; i < count; ++i)
+        setting_finish(&settings[i]);
+    host_finish(&h);
+    return code;
+}
+
+const command command_render = {
+    .name = "render",
+    .operands = "SCENE",
+    .summary = "Renders one frame without a window",
+    .help =
+        "FILE ends in .png (sRGB; normals and positions as value/2 + 1/2), .exr or .pfm (linear).\n"
+        "--stats times a few more frames of the animation after the one that is taken.",
+    .option_names = OPTIONS_SCENE OPTIONS_GPU OPTIONS_FRAME
+    " --frame --layer --stats --timing-frames --output ",
+    .min_operands = 1,
+    .max_operands = 1,
+    .run = run,
+};

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "file.h"
+#include "host.h"
+
+#include <string.h>
+
+static fg_status write_frame(host *h, renderer *r, renderer_layer layer, int frame)
+{
+    char path[4096];
+    image picture = { 0 };
+    const char *format = h->o->format ? h->o->format : "png";
+    snprintf(path, sizeof path, "%s/frame_%04d.%s", h->o->output, frame, format);
+    fg_status status = renderer_read(r, layer, &picture);
+    if (status == FG_OK)
+        status = image_write(&h->c->log, path, &picture, host_layer_kind(layer));
+    image_finish(&picture);
+    return status;
+}
+
+static int render(host *h, const setting *settings, int count, renderer_layer layer)
+{
+    const int width = h->o->width ? h->o->width : 512, height = h->o->height ? h->o->height : 512;
+    renderer *r = NULL;
+    renderer_desc desc = host_renderer_desc(h, &settings[0], width, height);
+    desc.layers = 1u << layer;
+    fg_status status = host_renderer(h, &desc, &r);
+    for (int i = 0; i < h->o->frames && status == FG_OK; ++i) {
+        const setting *s = &settings[i % count];
+        if (i > 0 && count > 1)
+            status = host_switch(h, r, s);
+        if (status == FG_OK)
+            status = renderer_frame(r, i / 60.0);
+        if (status == FG_OK)
+            status = write_frame(h, r, layer, i);
+        cli_progress("frames", (i + 1.0) / h->o->frames);
+    }
+    renderer_destroy(r);
+    return cli_status(h->c, status);
+}
+
+static int check(host *h, renderer_layer *layer)
+{
+    const char *format = h->o->format;
+    if (!h->o->frames)
+        return cli_fail(h->c, EXIT_USAGE, "--frames: is missing");
+    if (format && strcmp(format, "png") && strcmp(format, "exr") && strcmp(format, "pfm"))
+        return cli_fail(h->c, EXIT_USAGE, "--format: is '%s', must be png, exr or pfm", format);
+    const int code = host_layer(h->c, h->o->layer, LAYER_FINAL, layer);
+    return code != EXIT_DONE ? code : host_check_folder(h->c, h->o);
+}
+
+static int run(cli *c, const options *o)
+{
+    host h;
+    setting settings[CLI_MAX_GI];
+    int count = 0;
+    renderer_layer layer;
+    host_init(&h, c, o);
+    int code = check(&h, &layer);
+    if (code == EXIT_DONE)
+        code = host_open_registry(&h);
+    if (code == EXIT_DONE)
+        code = host_settings(&h, false, settings, &count);
+    if (code == EXIT_DONE)
+        code = host_open_scene(&h, o->operands[0]);
+    if (code == EXIT_DONE)
+        code = host_open_device(&h);
+    if (code == EXIT_DONE)
+        code = render(&h, settings, count, layer);
+    for (int i = 0; i < count; ++i)
+        setting_finish(&settings[i]);
+    host_finish(&h);
+    return code;
+}
+
+const command command_sequence = {
+    .name = "sequence",
+    .operands = "SCENE",
+    .summary = "Renders frames of the animation, 1/60 s apart",
+    .help =
+        "Writes FILE/frame_0000.png and on (--format png, exr or pfm). Several --gi take turns,\n"
+        "frame by frame, in one process.",
+    .option_names = OPTIONS_SCENE OPTIONS_GPU OPTIONS_FRAME " --frames --layer --format --output ",
+    .min_operands = 1,
+    .max_operands = 1,
+    .run = run,
+};
