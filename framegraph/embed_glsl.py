@@ -7,7 +7,7 @@
 ROOT is the source root: the shader is named by its path below it. HEADER gets a
 `static const fg_gl_shader <file>_<stage>` with the includes expanded. Each
 DEFINES ("A=1;B", "" for none) is one permutation, which GLSLANG must accept;
-without any the shader is compiled once, plain.
+without any the shader is compiled once, plain. GLSLANG "-" compiles nothing.
 """
 import pathlib
 import re
@@ -50,7 +50,7 @@ def main():
     text = '\n'.join(expand(source, root, seen)) + '\n'
     if not text.startswith('#version 450 core\n'):
         sys.exit(f'{source}:1: the first line must be "#version 450 core"')
-    for defines in permutations or ['']:
+    for defines in [] if glslang == '-' else permutations or ['']:
         with tempfile.NamedTemporaryFile('w', suffix=source.suffix) as f:
             f.write(with_defines(text, defines))
             f.flush()
