@@ -34,9 +34,6 @@ static bool resize(gl_framebuffers *f, int capacity)
 static void release(gl_framebuffer *f)
 {
     glDeleteFramebuffers(1, &f->name);
-    for (int i = 0; i < f->count; ++i)
-        if (f->views[i])
-            glDeleteTextures(1, &f->views[i]);
     *f = (gl_framebuffer){ 0 };
 }
 
@@ -76,62 +73,31 @@ void fg_gl_forget_texture(fg_device *dev, uint32_t object)
 
 // ---- building -------------------------------------------------------------------
 
-static int level_parameter(GLuint texture, int mip, GLenum name)
-{
-    GLint value = 0;
-    glGetTextureLevelParameteriv(texture, mip, name, &value);
-    return value;
-}
-
 static GLenum depth_point(GLuint texture)
 {
-    const int format = level_parameter(texture, 0, GL_TEXTURE_INTERNAL_FORMAT);
+    GLint format = 0;
+    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
     const bool stencil = format == GL_DEPTH24_STENCIL8 || format == GL_DEPTH32F_STENCIL8;
     return stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
 }
 
-// Layers of the whole level as glNamedFramebufferTexture attaches it; 0: it has none.
-static int layers_of(GLuint texture, GLenum target, int mip)
+static bool has_layers(GLenum target)
 {
-    switch (target) {
-    case GL_TEXTURE_CUBE_MAP: return 6;
-    case GL_TEXTURE_3D:
-    case GL_TEXTURE_2D_ARRAY:
-    case GL_TEXTURE_CUBE_MAP_ARRAY:
-    case GL_TEXTURE_2D_MULTISAMPLE_ARRAY: return level_parameter(texture, mip, GL_TEXTURE_DEPTH);
-    default: return 0;
-    }
+    return target == GL_TEXTURE_3D || target == GL_TEXTURE_2D_ARRAY ||
+           target == GL_TEXTURE_CUBE_MAP || target == GL_TEXTURE_CUBE_MAP_ARRAY ||
+           target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
 }
 
-// GL attaches one layer or all of them. Some of them are all of a view.
-static GLuint view_of_layers(const fg_attachment *a, GLenum target)
-{
-    const bool samples = target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
-    const GLenum internal = (GLenum) level_parameter(a->object, 0, GL_TEXTURE_INTERNAL_FORMAT);
-    GLuint view = 0;
-    glGenTextures(1, &view);
-    glTextureView(view, samples ? target : GL_TEXTURE_2D_ARRAY, a->object, internal,
-                  (GLuint) a->mip, 1, (GLuint) a->layer, (GLuint) a->layers);
-    return view;
-}
-
+// One layer, or the whole level: the graph refuses what lies between.
 static void attach(gl_framebuffer *f, const fg_attachment *a, GLenum point)
 {
     GLint target = 0;
     glGetTextureParameteriv(a->object, GL_TEXTURE_TARGET, &target);
-    const int layers = layers_of(a->object, (GLenum) target, a->mip);
-    const bool part = a->layers > 0 && (a->layer > 0 || a->layers < layers);
-
-    f->objects[f->count] = a->object;
-    if (layers && !a->layered) {
+    if (has_layers((GLenum) target) && !a->layered)
         glNamedFramebufferTextureLayer(f->name, point, a->object, a->mip, a->layer);
-    } else if (layers && part && target != GL_TEXTURE_3D) {
-        f->views[f->count] = view_of_layers(a, (GLenum) target);
-        glNamedFramebufferTexture(f->name, point, f->views[f->count], 0);
-    } else {
+    else
         glNamedFramebufferTexture(f->name, point, a->object, a->mip);
-    }
-    ++f->count;
+    f->objects[f->count++] = a->object;
 }
 
 static const char *status_reason(GLenum status)

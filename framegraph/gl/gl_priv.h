@@ -29,7 +29,6 @@ typedef struct gl_framebuffer {
     uint64_t key;
     GLuint name;                        // 0: an empty place
     GLuint objects[GL_MAX_ATTACHMENTS]; // what it holds, to be dropped with them
-    GLuint views[GL_MAX_ATTACHMENTS];   // textures made for ranges of layers
     int count;
 } gl_framebuffer;
 

