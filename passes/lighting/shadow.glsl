@@ -4,10 +4,12 @@
 // Percentage closer filtering over the 2 x 2 texels around the point, weighted bilinearly. Each
 // texel is compared with the depth that the receiver's own plane has at that texel's centre: in both
 // projections depth is affine over the map for a plane, so a plane cannot shadow itself at
-// any slope. What is left for the bias is rounding and the bend of a surface within a texel.
-
-// In texels of the map: where another surface joins within the 2 x 2 texels.
-const float shadow_bias_texels = 1.0;
+// any slope. What is left for the bias is another surface that meets the receiver's within the
+// 2 x 2 texels, as in the corner of a room: it rises above the plane by as many texels as the
+// tangents of both angles to the light say. The receiver's is known; 4 stands for the other's, 76
+// degrees. Light leaks below blockers no thicker than that.
+const float shadow_bias_texels = 4.0;
+const float shadow_bias_slope = 8.0; // the largest tangent that counts
 
 int shadow_pick_face(ag_gpu_light light, vec3 p)
 {
@@ -36,10 +38,11 @@ float shadow_plane_depth(ag_gpu_face f, vec3 d, vec3 n, vec2 st)
 }
 
 // Depth by which a surface may be nearer to the light without being a blocker.
-float shadow_bias(ag_gpu_face f, float size, float z)
+float shadow_bias(ag_gpu_face f, float size, float z, float cosine)
 {
-    float texel = 2.0 * f.right.w / size;
-    return shadow_bias_texels * texel * (f.eye.w > 0.5 ? f.forward.w : z);
+    float slope = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(cosine, 1e-3);
+    float texels = shadow_bias_texels + min(slope, shadow_bias_slope);
+    return texels * 2.0 * f.right.w / size * (f.eye.w > 0.5 ? f.forward.w : z);
 }
 
 // Fraction of light that arrives, [0, 1]. `n`: face normal, facing the light.
@@ -58,7 +61,8 @@ float shadow_visibility(ag_gpu_light light, vec3 p, vec3 n)
     vec2 base = floor(at);
     vec2 frac = at - base;
     float z = f.eye.w > 0.5 ? 1.0 - along * f.forward.w : f.forward.w / along;
-    float bias = shadow_bias(f, size, z);
+    float cosine = abs(dot(n, f.eye.w > 0.5 ? f.forward.xyz : normalize(d)));
+    float bias = shadow_bias(f, size, z, cosine);
     float lit = 0.0;
     for (int i = 0; i < 4; i++) {
         vec2 corner = vec2(i & 1, i >> 1);

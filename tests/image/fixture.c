@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixture.h"
 
+#include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -225,33 +226,152 @@ double spot_power(const ag_light *light)
     return 2 * 3.14159265358979 * sum * (double) light->intensity[0];
 }
 
-image render_layer(ag_scene *scene, int width, int height, renderer_layer layer,
-                   const gi_plugin *plugin, const char *const *settings)
+static void capture_texture(capture *c, const fg_written *written)
+{
+    const fg_tex_desc *t = written->tex;
+    const int layers = t->layers > 0 ? t->layers : 1;
+    const size_t layer_bytes = (size_t) 16 * t->width * t->height;
+    c->width = t->width;
+    c->height = t->height;
+    c->layers = layers;
+    c->size = layer_bytes * layers;
+    c->texels = realloc(c->texels, c->size);
+    assert_non_null(c->texels);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureImage(written->object, 0, GL_RGBA, GL_FLOAT, (GLsizei) c->size, c->texels);
+}
+
+static void on_written(void *user, const fg_written *written)
+{
+    for (capture *c = user; c && c->resource; c++) {
+        if (strcmp(c->resource, written->resource) != 0)
+            continue;
+        if (written->tex) {
+            capture_texture(c, written);
+            continue;
+        }
+        c->size = written->buf->size;
+        c->bytes = realloc(c->bytes, c->size);
+        assert_non_null(c->bytes);
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        glGetNamedBufferSubData(written->object, 0, (GLsizeiptr) c->size, c->bytes);
+    }
+}
+
+void captures_finish(capture *captures)
+{
+    for (capture *c = captures; c->resource; c++) {
+        free(c->texels);
+        free(c->bytes);
+    }
+}
+
+typedef struct shot {
+    ag_scene *scene;
+    int width, height;
+    renderer_layer layer;
+    const gi_plugin *plugin;
+    const char *const *settings;
+    capture *captures;
+} shot;
+
+static image take(const shot *s)
 {
     gi_value values[32];
     image img = { 0 };
     renderer *r = NULL;
     log_clear();
-    if (plugin) {
-        assert_true(gi_params_count(plugin) <= FG_COUNT(values));
-        gi_params_default(plugin, values);
+    if (s->plugin) {
+        assert_true(gi_params_count(s->plugin) <= FG_COUNT(values));
+        gi_params_default(s->plugin, values);
     }
-    for (int i = 0; plugin && settings && settings[i]; i++)
-        assert_int_equal(gi_params_set(test_log(), plugin, values, settings[i]), FG_OK);
+    for (int i = 0; s->plugin && s->settings && s->settings[i]; i++)
+        assert_int_equal(gi_params_set(test_log(), s->plugin, values, s->settings[i]), FG_OK);
     const renderer_desc desc = {
         .log = test_log(),
         .device = dev,
-        .scene = scene,
-        .width = width,
-        .height = height,
-        .plugin = plugin,
-        .values = plugin ? values : NULL,
-        .layers = 1u << layer,
+        .scene = s->scene,
+        .width = s->width,
+        .height = s->height,
+        .plugin = s->plugin,
+        .values = s->plugin ? values : NULL,
+        .layers = 1u << s->layer,
+        .inspect = s->captures ? on_written : NULL,
+        .inspect_user = s->captures,
     };
-    if (renderer_create(&desc, &r) || renderer_frame(r, 0) || renderer_read(r, layer, &img))
+    if (renderer_create(&desc, &r) || renderer_frame(r, 0) || renderer_read(r, s->layer, &img))
         fail_msg("frame: %s", text);
     renderer_destroy(r);
     return img;
+}
+
+image render_layer(ag_scene *scene, int width, int height, renderer_layer layer,
+                   const gi_plugin *plugin, const char *const *settings)
+{
+    const shot s = { scene, width, height, layer, plugin, settings, NULL };
+    return take(&s);
+}
+
+image render_captured(ag_scene *scene, int width, int height, renderer_layer layer,
+                      const char *const *settings, capture *captures)
+{
+    const shot s = { scene, width, height, layer, plugin_rsm(), settings, captures };
+    return take(&s);
+}
+
+ag_scene *sphere_scene(int rings, float albedo)
+{
+    const int columns = 2 * rings, row = columns + 1;
+    const size_t vertex_count = (size_t) row * (rings + 1);
+    ag_vertex *vertices = calloc(vertex_count, sizeof *vertices);
+    uint32_t *indices = calloc((size_t) 6 * columns * rings, sizeof *indices);
+    size_t n = 0;
+    assert_true(vertices && indices);
+    for (int i = 0; i <= rings; i++) {
+        for (int j = 0; j <= columns; j++) {
+            ag_vertex *v = &vertices[i * row + j];
+            const double polar = 3.14159265358979 * i / rings;
+            const double around = 3.14159265358979 * j / rings;
+            const double p[3] = { sin(polar) * cos(around), cos(polar), sin(polar) * sin(around) };
+            for (int k = 0; k < 3; k++) {
+                v->position[k] = (float) p[k];
+                v->normal[k] = (float) -p[k];
+            }
+            for (int k = 0; k < 4; k++)
+                v->color[k] = 1;
+        }
+    }
+    for (int i = 0; i < rings; i++) {
+        for (int j = 0; j < columns; j++) {
+            const uint32_t a = (uint32_t) (i * row + j), b = a + 1, c = a + (uint32_t) row,
+                           d = c + 1;
+            const uint32_t quad[6] = { a, c, b, b, c, d }; // counter-clockwise from inside
+            memcpy(indices + n, quad, sizeof quad);
+            n += 6;
+        }
+    }
+    ag_builder *builder = ag_builder_create(test_log(), "sphere");
+    const float rgb[3] = { albedo, albedo, albedo };
+    const ag_primitive_desc sphere = {
+        .name = "sphere",
+        .vertices = vertices,
+        .vertex_count = vertex_count,
+        .indices = indices,
+        .index_count = n,
+        .material = diffuse(builder, rgb),
+    };
+    const ag_node_desc node = { .name = "sphere", .parent = -1 };
+    const ag_light light = { .name = "point", .direction = { 0, -1, 0 }, .intensity = { 1, 1, 1 } };
+    const int primitive = ag_builder_primitive(builder, &sphere);
+    ag_builder_show(builder, ag_builder_node(builder, &node), primitive, -1);
+    ag_builder_light(builder, -1, &light);
+    ag_camera camera = { .name = "centre", .yfov = 1.5f, .znear = 1e-3f };
+    for (int k = 0; k < 4; k++)
+        camera.world[5 * k] = 1;
+    ag_builder_camera(builder, -1, &camera);
+    free(vertices);
+    free(indices);
+    return finish_scene(builder);
 }
 
 double image_mean(const image *img)

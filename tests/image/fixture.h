@@ -47,9 +47,28 @@ double spot_power(const ag_light *light);
 
 const gi_plugin *plugin_rsm(void);
 
+// What a frame wrote under one name: float rgba of a texture's layers in turn, or a buffer's bytes.
+typedef struct capture {
+    const char *resource; // "rsm.flux"
+    float *texels;        // or
+    void *bytes;
+    size_t size; // bytes of either
+    int width, height, layers;
+} capture;
+
+// A frame as render_layer() makes it, with what it wrote on the way; `captures` ends at a NULL
+// name.
+image render_captured(ag_scene *scene, int width, int height, renderer_layer layer,
+                      const char *const *settings, capture *captures);
+void captures_finish(capture *captures);
+
 // One frame with the settings ("key=value", NULL ends); fails the test if it does not succeed.
 image render_layer(ag_scene *scene, int width, int height, renderer_layer layer,
                    const gi_plugin *plugin, const char *const *settings);
+
+// A sphere of radius 1 m about the origin, seen from inside: `rings` x 2 `rings` quads with smooth
+// normals, and a point light of 1 W/sr in the middle. The camera stands at the centre.
+ag_scene *sphere_scene(int rings, float albedo);
 
 double image_mean(const image *img); // over all channels
 
