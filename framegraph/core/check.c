@@ -102,7 +102,7 @@ static bool count_versions(fg_graph *g)
     return true;
 }
 
-static void index_write(fg_graph *g, uint32_t pass, uint32_t i)
+static bool index_write(fg_graph *g, uint32_t pass, uint32_t i)
 {
     const decl *d = g->open;
     const io_rec *io = &d->io[i];
@@ -111,27 +111,49 @@ static void index_write(fg_graph *g, uint32_t pass, uint32_t i)
         fg_decl_fail(g, FG_ERR_INVALID,
                      "pass '%s' writes '%s' as it was imported: write fg_next() of the handle",
                      pass_name(d, pass), res_name(d, io->res));
-    } else if (v->pass == NONE) {
+        return false;
+    }
+    if (v->pass == NONE) {
         *v = (version_rec){ pass, i };
     } else if (v->pass != pass) {
         fg_decl_fail(g, FG_ERR_INVALID,
                      "passes '%s' and '%s' both write version %u of '%s': the later one writes "
                      "fg_next() of it",
                      pass_name(d, v->pass), pass_name(d, pass), io->version, res_name(d, io->res));
+        return false;
     }
+    return true;
 }
 
-static void check_gaps(fg_graph *g)
+static bool check_gaps(fg_graph *g)
 {
     const decl *d = g->open;
+    bool good = true;
     for (uint32_t r = 0; r < d->res_count; r++) {
         const res_plan *rp = &g->next->res[r];
-        for (uint32_t v = d->res[r].import != NONE; v < rp->versions; v++)
-            if (g->next->version[rp->version + v].pass == NONE)
-                fg_decl_fail(g, FG_ERR_INVALID,
-                             "'%s': version %u is written, but no pass writes version %u",
-                             res_name(d, r), rp->versions, v + 1);
+        for (uint32_t v = d->res[r].import != NONE; v < rp->versions; v++) {
+            if (g->next->version[rp->version + v].pass != NONE)
+                continue;
+            fg_decl_fail(g, FG_ERR_INVALID,
+                         "'%s': version %u is written, but no pass writes version %u",
+                         res_name(d, r), rp->versions, v + 1);
+            good = false;
+        }
     }
+    return good;
+}
+
+static bool index_versions(fg_graph *g)
+{
+    const decl *d = g->open;
+    bool good = count_versions(g);
+    for (uint32_t i = 0; good && i < d->pass_count; i++) {
+        const pass_rec *pass = &d->pass[i];
+        const uint32_t writes = pass->io + pass->reads;
+        for (uint32_t k = writes; k < writes + pass->writes; k++)
+            good &= index_write(g, i, k);
+    }
+    return good && check_gaps(g);
 }
 
 // ---- what a pass reads ------------------------------------------------------------------
@@ -216,16 +238,7 @@ fg_status fg_check(fg_graph *g, bool *in_order)
         return d->status;
     check_names(g, false, mask);
     check_names(g, true, mask);
-    if (!count_versions(g))
-        return d->status;
-    for (uint32_t i = 0; i < d->pass_count; i++) {
-        const pass_rec *pass = &d->pass[i];
-        const uint32_t writes = pass->io + pass->reads;
-        for (uint32_t k = writes; k < writes + pass->writes; k++)
-            index_write(g, i, k);
-    }
-    check_gaps(g);
-    if (d->status != FG_OK)
+    if (!index_versions(g))
         return d->status;
     for (uint32_t i = 0; i < d->pass_count; i++) {
         const pass_rec *pass = &d->pass[i];
