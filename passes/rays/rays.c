@@ -88,14 +88,10 @@ static void interpolate_attributes(const target *t, const triangle *tri, const d
     for (int i = 0; i < 3; ++i) {
         const ag_vertex *v =
             t->scene->vertices + t->primitive->first_vertex + (size_t) tri->index[i];
-        double n[3];
         for (int k = 0; k < 3; ++k)
-            n[k] = t->normals[k] * (double) v->normal[0] +
-                   t->normals[3 + k] * (double) v->normal[1] +
-                   t->normals[6 + k] * (double) v->normal[2];
-        const double length = sqrt(dot(n, n));
-        for (int k = 0; k < 3 && length > 0; ++k)
-            normal[k] += weight[i] * n[k] / length;
+            normal[k] += weight[i] * (t->normals[k] * (double) v->normal[0] +
+                                      t->normals[3 + k] * (double) v->normal[1] +
+                                      t->normals[6 + k] * (double) v->normal[2]);
         for (int k = 0; k < 4; ++k) {
             hit->uv[k / 2][k % 2] += (float) weight[i] * v->uv[k / 2][k % 2];
             hit->color[k] += (float) weight[i] * v->color[k];
