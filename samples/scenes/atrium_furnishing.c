@@ -108,11 +108,9 @@ static void add_plants(atrium *a)
     static const float trunk[][3] = {
         { 0, 0.45f, 0 }, { 0.03f, 0.9f, 0.01f }, { -0.01f, 1.4f, 0.03f }, { 0, 1.9f, 0 }
     };
-    static const float trees[][2] = {
-        { -4.6f, 2.35f }, { 4.6f, 2.35f }, { 4.6f, -2.35f }, { -4.6f, -2.35f }
-    };
-    static const float bushes[][2] = {
-        { -7.5f, 3.55f }, { 7.5f, 3.55f }, { 7.5f, -3.55f }, { -1.5f, -3.55f }, { 1.5f, 3.55f },
+    static const double trees[][2] = { { -4.6, 3.0 }, { 4.6, 2.4 }, { 4.6, -2.4 }, { -4.6, -3.0 } };
+    static const double bushes[][2] = {
+        { -7.5, 3.55 }, { 7.5, 3.55 }, { 7.5, -3.55 }, { -1.5, -3.55 }, { 1.5, 3.55 },
     };
     const shape_tube_desc stem = { .path = trunk, .count = 4, .radius = 0.045f, .segments = 8 };
     const int clay = add_turned(a, "pot", ATRIUM_CLAY, PROFILE(pot));
@@ -254,7 +252,8 @@ static void add_doors(atrium *a)
     shape leaf = { .tiling = 1.0f }, surround = { .tiling = 0.5f };
     shape_box(&leaf, (float[3]){ -0.6f, -0.02f, 2.9f }, (float[3]){ 0.6f, 2.1f, 3.05f });
     for (int i = 0; i < 6; ++i) {
-        const float x = i % 2 ? 0.06f : -0.52f, y = 0.15f + 0.64f * (float) (i / 2);
+        const int row = i / 2;
+        const float x = i % 2 ? 0.06f : -0.52f, y = 0.15f + 0.64f * (float) row;
         shape_box(&leaf, (float[3]){ x, y, 2.87f }, (float[3]){ x + 0.46f, y + 0.54f, 2.95f });
     }
     for (int i = 0; i < 2; ++i) {
@@ -265,15 +264,14 @@ static void add_doors(atrium *a)
     shape_box(&surround, (float[3]){ -0.94f, 2.32f, 2.70f }, (float[3]){ 0.94f, 2.40f, 3.05f });
     const int wood = kit_part(&a->k, "door", &leaf, a->material[ATRIUM_WOOD]);
     const int stone = kit_part(&a->k, "surround", &surround, a->material[ATRIUM_LIMESTONE]);
-    for (int side = 0; side < 4; ++side) {
-        for (int k = 1; k < atrium_bays(side); k += side % 2 ? 1 : 2) {
-            for (int storey = 0; storey < 2 && !(side % 2 && k == 2); ++storey) {
-                const place at = { atrium_bay_centre(side, k), atrium_floor[storey],
-                                   atrium_distance(side), 0 };
-                const int node = kit_show(&a->k, "door", wood, a->side[side], at);
-                kit_show(&a->k, "surround", stone, node, (place){ 0 });
-            }
-        }
+    for (int i = 0; i < 16; ++i) {
+        // Three to a long side, one to a short one, on both storeys.
+        const int storey = i / 8, slot = i % 8, side = slot < 6 ? 2 * (slot / 3) : 2 * slot - 11;
+        const int bay = slot < 6 ? 1 + 2 * (slot % 3) : 1;
+        const place at = { atrium_bay_centre(side, bay), atrium_floor[storey],
+                           atrium_distance(side), 0 };
+        const int node = kit_show(&a->k, "door", wood, a->side[side], at);
+        kit_show(&a->k, "surround", stone, node, (place){ 0 });
     }
 }
 

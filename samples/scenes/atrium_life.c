@@ -74,9 +74,10 @@ static void sweep(atrium *a, int pivot)
         const float t = (float) i / (float) (LIGHT_KEYS - 1);
         double q[4];
         times[i] = period * t;
-        along[3 * i] = 0.5f + 3.0f * sinf(tau * t);
-        along[3 * i + 1] = 0.0f;
-        along[3 * i + 2] = 1.2f;
+        float *to = along + 3 * (ptrdiff_t) i;
+        to[0] = 0.5f + 3.0f * sinf(tau * t);
+        to[1] = 0.0f;
+        to[2] = 1.2f;
         kit_turn(1, (double) (0.30f + 0.35f * sinf(tau * t)), q);
         for (int k = 0; k < 4; ++k)
             turn[4 * i + k] = (float) q[k];
@@ -93,7 +94,7 @@ static void sweep(atrium *a, int pivot)
     ag_builder_channel(a->k.builder, &channel);
 }
 
-// A spot high above the north side's roof: about 8 W/m^2 on the court's floor.
+// A spot high above the north side's roof: about 7 W/m^2 on the court's floor.
 static void add_light(atrium *a)
 {
     const double from[3] = { 0, 19.0, -7.6 };
@@ -106,7 +107,7 @@ static void add_light(atrium *a)
     const ag_light spot = {
         .name = "sun",
         .kind = AG_LIGHT_SPOT,
-        .intensity = { 3400.0f, 3150.0f, 2720.0f }, // W/sr
+        .intensity = { 3000.0f, 2780.0f, 2400.0f }, // W/sr
         .cos_inner = cosf(0.36f),
         .cos_outer = cosf(0.44f),
     };

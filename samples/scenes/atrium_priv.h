@@ -12,7 +12,7 @@
 static const float atrium_bay = 3.0f;
 static const float atrium_half_x = 9.0f, atrium_half_z = 4.5f; // of the arcades' axes
 static const float atrium_gallery = 3.0f;                      // arcade axis to back wall
-static const float atrium_floor[2] = { 0.15f, 4.5f };          // of the storeys
+static const double atrium_floor[2] = { 0.15, 4.5 };           // of the storeys
 static const float atrium_spring[2] = { 2.9f, 6.95f };         // of their arches
 static const float atrium_eaves = 9.0f;
 

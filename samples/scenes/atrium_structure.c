@@ -43,11 +43,12 @@ static void show_ring(atrium *a, const char *name, atrium_material material,
     kit_show(&a->k, name, kit_part(&a->k, name, &s, a->material[material]), -1, (place){ 0 });
 }
 
-// Shows a part wherever an arcade of `storey` has a column.
-static void show_at_columns(atrium *a, const char *name, int part, int storey)
+// Shows a part wherever an arcade of `storey` has a column, or also (`ends`) at the side's ends.
+static void show_at_columns(atrium *a, const char *name, int part, int storey, bool ends)
 {
     for (int side = 0; side < 4; ++side) {
-        for (int k = 1; k < atrium_bays(side); ++k) {
+        const int bays = atrium_bays(side);
+        for (int k = ends ? 0 : 1; k < (ends ? bays + 1 : bays); ++k) {
             const place at = { atrium_bay_centre(side, k) - 0.5 * (double) atrium_bay,
                                atrium_floor[storey], atrium_distance(side), 0 };
             kit_show(&a->k, name, part, a->side[side], at);
@@ -90,7 +91,8 @@ static void add_lower_columns(atrium *a)
     add_lathe(&s, PROFILE(neck), 24);
     add_lobed(&s, PROFILE(bell), 32, 8, 0.16f);
     add_frame(&s, 0, 0, PROFILE(abacus));
-    show_at_columns(a, "column", kit_part(&a->k, "column", &s, a->material[ATRIUM_LIMESTONE]), 0);
+    show_at_columns(a, "column", kit_part(&a->k, "column", &s, a->material[ATRIUM_LIMESTONE]), 0,
+                    false);
 }
 
 // A slender smooth column, 2.45 m.
@@ -114,7 +116,7 @@ static void add_upper_columns(atrium *a)
     add_lathe(&s, PROFILE(round), 20);
     add_frame(&s, 0, 0, PROFILE(abacus));
     const int part = kit_part(&a->k, "upper column", &s, a->material[ATRIUM_LIMESTONE]);
-    show_at_columns(a, "upper column", part, 1);
+    show_at_columns(a, "upper column", part, 1, false);
 }
 
 // Square piers through both storeys where two arcades meet.
@@ -131,8 +133,8 @@ static void add_piers(atrium *a)
     add_frame(&s, 0, 0, PROFILE(pier));
     const int part = kit_part(&a->k, "pier", &s, a->material[ATRIUM_ASHLAR]);
     for (int i = 0; i < 4; ++i) {
-        const place at = { i & 1 ? atrium_half_x : -atrium_half_x, 0.1,
-                           i & 2 ? atrium_half_z : -atrium_half_z, 0 };
+        const double x = (double) atrium_half_x, z = (double) atrium_half_z;
+        const place at = { i & 1 ? x : -x, 0.1, i & 2 ? z : -z, 0 };
         kit_show(&a->k, "pier", part, -1, at);
     }
 }
@@ -369,9 +371,11 @@ static void add_beams(atrium *a)
     for (int i = 0; i < 2; ++i) {
         const float half = i ? atrium_half_z : atrium_half_x + atrium_gallery;
         shape s = { .tiling = 1.0f };
-        for (float x = 0.375f - half; x < half; x += 0.75f)
+        for (int n = 0; n < (int) (2.0f * half / 0.75f); ++n) {
+            const float x = 0.375f + 0.75f * (float) n - half;
             shape_box(&s, (float[3]){ x - 0.07f, 8.38f, 0.05f },
                       (float[3]){ x + 0.07f, 8.64f, 3.05f });
+        }
         const int part = kit_part(&a->k, "beams", &s, a->material[ATRIUM_WOOD]);
         for (int side = i; side < 4; side += 2) {
             const place at = { 0, 0, atrium_distance(side), 0 };
@@ -385,20 +389,14 @@ static void add_pilasters(atrium *a)
 {
     static const float top[2] = { 2.9f, 8.5f };
     for (int storey = 0; storey < 2; ++storey) {
-        const float h = top[storey] - atrium_floor[storey];
+        const float h = top[storey] - (float) atrium_floor[storey];
         shape s = { .tiling = 0.5f };
         shape_box(&s, (float[3]){ -0.19f, -0.02f, 2.86f }, (float[3]){ 0.19f, h, 3.05f });
         shape_box(&s, (float[3]){ -0.24f, -0.02f, 2.80f }, (float[3]){ 0.24f, 0.28f, 3.05f });
         shape_box(&s, (float[3]){ -0.25f, h - 0.14f, 2.79f },
                   (float[3]){ 0.25f, h - 0.02f, 3.05f });
         const int part = kit_part(&a->k, "pilaster", &s, a->material[ATRIUM_ASHLAR]);
-        for (int side = 0; side < 4; ++side) {
-            for (int k = 0; k <= atrium_bays(side); ++k) {
-                const place at = { atrium_bay_centre(side, k) - 0.5 * (double) atrium_bay,
-                                   atrium_floor[storey], atrium_distance(side), 0 };
-                kit_show(&a->k, "pilaster", part, a->side[side], at);
-            }
-        }
+        show_at_columns(a, "pilaster", part, storey, true);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shapes.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -204,6 +205,7 @@ static void lathe_ring(shape *s, const shape_lathe_desc *d, int i, int end, floa
 void shape_lathe(shape *s, const shape_lathe_desc *desc)
 {
     float v = 0.0f;
+    assert(desc->segments >= 3);
     for (int i = 0; i + 1 < desc->count && !s->failed; ++i) {
         float unused[2];
         if (!segment_normal(desc, i, unused))

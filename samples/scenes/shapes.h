@@ -43,7 +43,7 @@ void shape_box(shape *s, const float lo[3], const float hi[3]);
 typedef struct shape_lathe_desc {
     const float (*profile)[2]; // radius >= 0, height
     int count;                 // >= 2
-    int segments;              // around; a multiple of `lobes`
+    int segments;              // around, >= 3; a multiple of `lobes`
     int lobes;                 // flutes or leaves around; 0: round
     float lobe_depth;          // of the radius, [0, 0.5): how deep they are cut
 } shape_lathe_desc;

@@ -102,41 +102,45 @@ void shape_arcade(shape *s, const shape_arcade_desc *desc)
     }
 }
 
+// One stone of the ring, between two radial cuts of directions (c, q).
+static void ring_stone(shape *s, const shape_archivolt_desc *d, const float c[2], const float q[2],
+                       float u)
+{
+    const float half = 0.5f * d->thickness;
+    for (int k = 0; k < 2; ++k) { // soffit, then the back
+        const float r = k ? d->outer : d->inner, out = k ? 1.0f : -1.0f;
+        const float a[2] = { r * c[0], d->spring + r * q[0] };
+        const float b[2] = { r * c[1], d->spring + r * q[1] };
+        const float normals[2][2] = { { out * c[0], out * q[0] }, { out * c[1], out * q[1] } };
+        across_wall(s, a, b, normals, half, r * u);
+    }
+    for (int k = 0; k < 2; ++k) { // the two faces
+        const uint32_t first = (uint32_t) s->vertex_count;
+        const float z = k ? half : -half, normal[3] = { 0, 0, z };
+        for (int j = 0; j < 4; ++j) {
+            const float r = j & 2 ? d->outer : d->inner;
+            const float p[3] = { r * c[j & 1], d->spring + r * q[j & 1], z };
+            shape_vertex(s, p, normal, p[0], -p[1]);
+        }
+        if (!s->failed)
+            shape_lattice(s, first, 1, 1);
+    }
+}
+
 void shape_archivolt(shape *s, const shape_archivolt_desc *desc)
 {
-    const float half = 0.5f * desc->thickness;
-    for (int i = 0; i < desc->segments && !s->failed; ++i) {
-        float c[2], q[2];
-        for (int k = 0; k < 2; ++k) {
-            const float angle = pi * (float) (i + k) / (float) desc->segments;
-            c[k] = cosf(angle);
-            q[k] = i + k == 0 || i + k == desc->segments ? 0.0f : sinf(angle);
-        }
-        for (int k = 0; k < 2; ++k) { // soffit, then the back
-            const float r = k ? desc->outer : desc->inner, out = k ? 1.0f : -1.0f;
-            const float a[2] = { r * c[0], desc->spring + r * q[0] };
-            const float b[2] = { r * c[1], desc->spring + r * q[1] };
-            const float normals[2][2] = { { out * c[0], out * q[0] }, { out * c[1], out * q[1] } };
-            across_wall(s, a, b, normals, half, r * pi * (float) i / (float) desc->segments);
-        }
-        for (int k = 0; k < 2; ++k) { // the two faces
-            const uint32_t first = (uint32_t) s->vertex_count;
-            const float z = k ? half : -half, normal[3] = { 0, 0, z };
-            for (int j = 0; j < 4; ++j) {
-                const float r = j & 2 ? desc->outer : desc->inner;
-                const float p[3] = { r * c[j & 1], desc->spring + r * q[j & 1], z };
-                shape_vertex(s, p, normal, p[0], -p[1]);
-            }
-            if (!s->failed)
-                shape_lattice(s, first, 1, 1);
-        }
+    const int n = desc->segments;
+    for (int i = 0; i < n && !s->failed; ++i) {
+        const float from = pi * (float) i / (float) n, to = pi * (float) (i + 1) / (float) n;
+        const float c[2] = { cosf(from), cosf(to) };
+        const float q[2] = { i == 0 ? 0.0f : sinf(from), i + 1 == n ? 0.0f : sinf(to) };
+        ring_stone(s, desc, c, q, from);
     }
     for (int k = 0; k < 2; ++k) { // its two feet
-        const float x = k ? -1.0f : 1.0f;
-        const float a[2] = { x * desc->inner, desc->spring },
-                    b[2] = { x * desc->outer, desc->spring };
+        const float x = k ? -1.0f : 1.0f, y = desc->spring;
+        const float a[2] = { x * desc->inner, y }, b[2] = { x * desc->outer, y };
         const float down[2][2] = { { 0, -1 }, { 0, -1 } };
-        across_wall(s, a, b, down, half, 0.0f);
+        across_wall(s, a, b, down, 0.5f * desc->thickness, 0.0f);
     }
 }
 

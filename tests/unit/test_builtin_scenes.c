@@ -56,14 +56,6 @@ static mesh primitive_mesh(const ag_scene *s, int i)
                    p->index_count };
 }
 
-static size_t shown_triangles(const ag_scene *s)
-{
-    size_t sum = 0;
-    for (int i = 0; i < s->instance_count; ++i)
-        sum += s->primitives[s->instances[i].primitive].index_count / 3;
-    return sum;
-}
-
 // ---- both ------------------------------------------------------------------------
 
 static void table_ends_in_null(void **state)
@@ -105,7 +97,7 @@ static void faces_wind_as_their_normals_say_and_nothing_was_repaired(void **stat
 
 static void assert_same(const char *what, const void *a, const void *b, size_t size)
 {
-    if (memcmp(a, b, size))
+    if (memcmp(a, b, size) != 0)
         fail_msg("%s differ between two builds", what);
 }
 
@@ -135,74 +127,11 @@ static void two_builds_are_equal_byte_for_byte(void **state)
     for_all(check_same_twice);
 }
 
-// ---- rays, by trying every triangle: slow, and shares nothing with the code ----------
-
-typedef struct world_mesh {
-    size_t count; // of triangles
-    double (*p)[3][3];
-    double (*normal)[3];
-} world_mesh;
-
-static world_mesh flatten(const ag_scene *s)
-{
-    world_mesh w = { .p = malloc(shown_triangles(s) * sizeof *w.p) };
-    w.normal = malloc(shown_triangles(s) * sizeof *w.normal);
-    assert_non_null(w.p);
-    assert_non_null(w.normal);
-    for (int i = 0; i < s->instance_count; ++i) {
-        const ag_primitive *prim = &s->primitives[s->instances[i].primitive];
-        const double *m = s->instances[i].world;
-        for (uint32_t k = 0; k < prim->index_count; ++k) {
-            const uint32_t index = prim->first_vertex + s->indices[prim->first_index + k];
-            const float *v = s->vertices[index].position;
-            double *p = w.p[w.count + k / 3][k % 3];
-            for (int r = 0; r < 3; ++r)
-                p[r] = m[r] * (double) v[0] + m[4 + r] * (double) v[1] + m[8 + r] * (double) v[2] +
-                       m[12 + r];
-        }
-        w.count += prim->index_count / 3;
-    }
-    return w;
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
+// ---- what the cameras see ------------------------------------------------------------
 
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-// Distance along the ray, or infinity.
-static double meet(double p[3][3], const double from[3], const double direction[3])
-{
-    double e1[3], e2[3], to[3], h[3], q[3];
-    for (int k = 0; k < 3; ++k) {
-        e1[k] = p[1][k] - p[0][k];
-        e2[k] = p[2][k] - p[0][k];
-        to[k] = from[k] - p[0][k];
-    }
-    cross(direction, e2, h);
-    const double det = dot(e1, h);
-    if (fabs(det) < 1e-18)
-        return INFINITY;
-    const double u = dot(to, h) / det;
-    cross(to, e1, q);
-    const double v = dot(direction, q) / det, t = dot(e2, q) / det;
-    return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 1e-6 ? t : (double) INFINITY;
-}
-
-static double nearest(const world_mesh *w, const double from[3], const double direction[3],
-                      double limit)
-{
-    double best = limit;
-    for (size_t i = 0; i < w->count; ++i)
-        best = fmin(best, meet(w->p[i], from, direction));
-    return best;
 }
 
 // The ray through (x, y) of the picture, both in (-1, 1).
@@ -219,27 +148,34 @@ static void camera_ray(const ag_camera *c, double x, double y, double from[3], d
         direction[k] = d[k] / length;
 }
 
+// Of 5 x 5 rays of the camera, how many meet something within 100 m.
+static int rays_that_hit(const soup *w, const ag_camera *c)
+{
+    int hits = 0;
+    for (int k = 0; k < 25; ++k) {
+        const int row = k / 5;
+        double from[3], direction[3];
+        camera_ray(c, 0.4 * (k % 5 - 2), 0.4 * (row - 2), from, direction);
+        const double t = soup_nearest(w, from, direction, 1e9);
+        hits += t < 100.0;
+        if (t < (double) c->znear)
+            fail_msg("camera %s stands in something", c->name);
+    }
+    return hits;
+}
+
 static void check_cameras(const char *name, ag_scene *s)
 {
-    const world_mesh w = flatten(s);
+    const soup w = soup_of(s);
     assert_true(s->camera_count >= 3);
     for (int i = 0; i < s->camera_count; ++i) {
-        int hits = 0;
-        for (int k = 0; k < 25; ++k) {
-            double from[3], direction[3];
-            camera_ray(&s->cameras[i], 0.4 * (k % 5 - 2), 0.4 * (k / 5 - 2), from, direction);
-            const double t = nearest(&w, from, direction, INFINITY);
-            hits += t < 100.0;
-            if (t < (double) s->cameras[i].znear)
-                fail_msg("%s: camera %s stands in something", name, s->cameras[i].name);
-        }
+        const ag_camera *c = &s->cameras[i];
+        const int hits = rays_that_hit(&w, c);
         if (hits < 18) // of 25: at most a strip of sky
-            fail_msg("%s: camera %s sees something on %d of 25 rays", name, s->cameras[i].name,
-                     hits);
-        assert_int_equal(ag_scene_find_camera(s, s->cameras[i].name), i);
+            fail_msg("%s: camera %s sees something on %d of 25 rays", name, c->name, hits);
+        assert_int_equal(ag_scene_find_camera(s, c->name), i);
     }
-    free(w.p);
-    free(w.normal);
+    free(w.corners);
 }
 
 static void every_camera_looks_at_the_scene(void **state)
@@ -252,13 +188,14 @@ static void every_camera_looks_at_the_scene(void **state)
 // light reaches.
 static void lit_share(const ag_scene *s, int *seen, int *lit)
 {
-    const world_mesh w = flatten(s);
+    const soup w = soup_of(s);
     *seen = *lit = 0;
     for (int k = 0; k < 256; ++k) {
         double from[3], direction[3], at[3], distance;
         float e[3], to_light[3];
-        camera_ray(&s->cameras[0], (k % 16 - 7.5) / 8.0, (k / 16 - 7.5) / 8.0, from, direction);
-        const double t = nearest(&w, from, direction, 1e6);
+        const int row = k / 16;
+        camera_ray(&s->cameras[0], (k % 16 - 7.5) / 8.0, (row - 7.5) / 8.0, from, direction);
+        const double t = soup_nearest(&w, from, direction, 1e6);
         if (t >= 1e6)
             continue;
         ++*seen;
@@ -267,10 +204,9 @@ static void lit_share(const ag_scene *s, int *seen, int *lit)
         ag_light_eval(&s->lights[0], at, e, to_light, &distance);
         const double towards[3] = { (double) to_light[0], (double) to_light[1],
                                     (double) to_light[2] };
-        *lit += e[0] > 0.0f && nearest(&w, at, towards, distance) >= distance;
+        *lit += e[0] > 0.0f && soup_nearest(&w, at, towards, distance) >= distance;
     }
-    free(w.p);
-    free(w.normal);
+    free(w.corners);
 }
 
 static void check_lit(const char *name, ag_scene *s)
@@ -294,8 +230,9 @@ static void mean_albedo(const ag_scene *s, const ag_material *m, double out[3])
     double weight = 0.0;
     memset(out, 0, 3 * sizeof *out);
     for (int i = 0; i < 64 * 64; ++i) {
-        const float uv[2][2] = { { ((float) (i % 64) + 0.5f) / 64.0f,
-                                   ((float) (i / 64) + 0.5f) / 64.0f } };
+        const int row = i / 64;
+        const float u = ((float) (i % 64) + 0.5f) / 64.0f, v = ((float) row + 0.5f) / 64.0f;
+        const float uv[2][2] = { { u, v } };
         const float white[4] = { 1, 1, 1, 1 };
         ag_surface surface;
         if (ag_surface_masked(s, m, uv, white))
@@ -362,7 +299,7 @@ static void cornell_has_the_published_coordinates(void **state)
             fail_msg("no corner at (%g, %g, %g) mm", (double) corners[i][0], (double) corners[i][1],
                      (double) corners[i][2]);
     }
-    assert_int_equal(shown_triangles(s), 30); // 5 sides and 2 x 5 faces of blocks
+    assert_int_equal(scene_triangles(s), 30); // 5 sides and 2 x 5 faces of blocks
     ag_scene_destroy(s);
 }
 
@@ -406,14 +343,13 @@ static void cornell_is_open_in_front_alone(void **state)
 {
     (void) state;
     ag_scene *s = open_scene("cornell");
-    const world_mesh w = flatten(s);
+    const soup w = soup_of(s);
     const double from[3] = { 0.278, 0.45, 0.28 };
     static const double ways[6][3] = { { 1, 0, 0 },  { -1, 0, 0 }, { 0, 1, 0 },
                                        { 0, -1, 0 }, { 0, 0, 1 },  { 0, 0, -1 } };
     for (int i = 0; i < 6; ++i)
-        assert_int_equal(isinf(nearest(&w, from, ways[i], INFINITY)) != 0, i == 5);
-    free(w.p);
-    free(w.normal);
+        assert_int_equal(soup_nearest(&w, from, ways[i], 1e9) >= 1e9, i == 5);
+    free(w.corners);
     ag_scene_destroy(s);
 }
 
@@ -440,7 +376,7 @@ static void atrium_has_about_100k_triangles_and_its_features(void **state)
 {
     (void) state;
     ag_scene *s = open_scene("atrium");
-    assert_in_range(shown_triangles(s), 90000, 120000);
+    assert_in_range(scene_triangles(s), 90000, 120000);
     assert_int_equal(s->features, AG_FEATURE_GEOMETRY | AG_FEATURE_TEXTURES |
                                       AG_FEATURE_ALPHA_MASK | AG_FEATURE_MOVING_GEOMETRY |
                                       AG_FEATURE_MOVING_LIGHT | AG_FEATURE_LIGHT |
@@ -473,16 +409,15 @@ static void atrium_court_is_open_to_the_sky_and_its_galleries_are_not(void **sta
 {
     (void) state;
     ag_scene *s = open_scene("atrium");
-    const world_mesh w = flatten(s);
+    const soup w = soup_of(s);
     static const double up[3] = { 0, 1, 0 };
     const double court[3] = { 2.5, 0.5, 0.5 }, lower[3] = { 1, 1.7, 6 }, upper[3] = { 1, 6, 6 };
-    assert_true(isinf(nearest(&w, court, up, INFINITY)));
-    const double vault = 1.7 + nearest(&w, lower, up, INFINITY);
-    const double ceiling = 6.0 + nearest(&w, upper, up, INFINITY);
+    assert_true(soup_nearest(&w, court, up, 1e9) >= 1e9);
+    const double vault = 1.7 + soup_nearest(&w, lower, up, 1e9);
+    const double ceiling = 6.0 + soup_nearest(&w, upper, up, 1e9);
     assert_true(vault > 3.5 && vault < 4.2);
     assert_true(ceiling > 8.3 && ceiling < 8.7);
-    free(w.p);
-    free(w.normal);
+    free(w.corners);
     ag_scene_destroy(s);
 }
 
@@ -513,7 +448,7 @@ static void atrium_lamps_swing_on_their_hooks(void **state)
     (void) state;
     ag_scene *s = open_scene("atrium");
     int moving = 0;
-    double before[16][16];
+    double before[16][16] = { 0 };
     for (int i = 0; i < s->instance_count; ++i) {
         if (s->instances[i].moving && moving < 16)
             memcpy(before[moving++], s->instances[i].world, sizeof before[0]);
@@ -534,7 +469,28 @@ static void atrium_lamps_swing_on_their_hooks(void **state)
     ag_scene_destroy(s);
 }
 
-// Textures on surfaces are as large as what they show: no stretched or missing coordinates.
+// Twice the area of a triangle in the world, and of its picture in the texture.
+static void triangle_areas(const mesh *m, size_t first, double *in_world, double *in_texture)
+{
+    double e[2][3], f[2][2], area[3];
+    const ag_vertex *v[3];
+    for (size_t j = 0; j < 3; ++j)
+        v[j] = &m->vertices[m->indices[first + j]];
+    for (int j = 0; j < 2; ++j) {
+        for (int c = 0; c < 3; ++c)
+            e[j][c] = (double) (v[j + 1]->position[c] - v[0]->position[c]);
+        for (int c = 0; c < 2; ++c)
+            f[j][c] = (double) (v[j + 1]->uv[0][c] - v[0]->uv[0][c]);
+    }
+    for (int c = 0; c < 3; ++c) {
+        const int x = (c + 1) % 3, y = (c + 2) % 3;
+        area[c] = e[0][x] * e[1][y] - e[0][y] * e[1][x];
+    }
+    *in_world += sqrt(dot(area, area));
+    *in_texture += fabs(f[0][0] * f[1][1] - f[0][1] * f[1][0]);
+}
+
+// No stretched or missing texture coordinates.
 static void atrium_texture_density_is_even(void **state)
 {
     (void) state;
@@ -543,23 +499,11 @@ static void atrium_texture_density_is_even(void **state)
         const ag_material *m = &s->materials[s->primitives[i].material];
         const mesh p = primitive_mesh(s, i);
         double in_world = 0.0, in_texture = 0.0;
-        for (size_t k = 0; k < p.index_count && m->base_color_tex.texture >= 0; k += 3) {
-            const ag_vertex *v[3];
-            double e[2][3], f[2][2], area[3];
-            for (size_t j = 0; j < 3; ++j)
-                v[j] = &p.vertices[p.indices[k + j]];
-            for (int j = 0; j < 2; ++j) {
-                for (int c = 0; c < 3; ++c)
-                    e[j][c] = (double) (v[j + 1]->position[c] - v[0]->position[c]);
-                for (int c = 0; c < 2; ++c)
-                    f[j][c] = (double) (v[j + 1]->uv[0][c] - v[0]->uv[0][c]);
-            }
-            cross(e[0], e[1], area);
-            in_world += sqrt(dot(area, area));
-            in_texture += fabs(f[0][0] * f[1][1] - f[0][1] * f[1][0]);
-        }
-        if (in_world > 0.0 && (in_texture / in_world < 0.1 || in_texture / in_world > 20.0))
-            fail_msg("%s: %g texture areas a square metre", m->name, in_texture / in_world);
+        for (size_t k = 0; k < p.index_count; k += 3)
+            triangle_areas(&p, k, &in_world, &in_texture);
+        const double density = in_texture / in_world; // textures a square metre
+        if (m->base_color_tex.texture >= 0 && (density < 0.1 || density > 20.0))
+            fail_msg("%s: %g textures a square metre", m->name, density);
     }
     ag_scene_destroy(s);
 }

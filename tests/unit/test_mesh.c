@@ -5,6 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 typedef struct edge {
     float from[3], to[3];
 } edge;
@@ -67,9 +79,7 @@ static void face_vector(const mesh *m, size_t first, double out[3])
         a[k] = p[1][k] - p[0][k];
         b[k] = p[2][k] - p[0][k];
     }
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
+    cross(a, b, out);
 }
 
 // The least cosine between face `first` and its vertices' normals.
@@ -148,4 +158,61 @@ void mesh_bounds(const mesh *m, float lo[3], float hi[3])
             hi[k] = fmaxf(hi[k], m->vertices[i].position[k]);
         }
     }
+}
+
+size_t scene_triangles(const ag_scene *s)
+{
+    size_t sum = 0;
+    for (int i = 0; i < s->instance_count; ++i)
+        sum += s->primitives[s->instances[i].primitive].index_count / 3;
+    return sum;
+}
+
+static void transform(const double m[16], const float v[3], double out[3])
+{
+    for (int r = 0; r < 3; ++r)
+        out[r] =
+            m[r] * (double) v[0] + m[4 + r] * (double) v[1] + m[8 + r] * (double) v[2] + m[12 + r];
+}
+
+soup soup_of(const ag_scene *s)
+{
+    soup out = { .corners = calloc(scene_triangles(s) + 1, sizeof *out.corners) };
+    for (int i = 0; i < s->instance_count && out.corners; ++i) {
+        const ag_primitive *p = &s->primitives[s->instances[i].primitive];
+        for (uint32_t k = 0; k < p->index_count; ++k) {
+            const uint32_t index = p->first_vertex + s->indices[p->first_index + k];
+            transform(s->instances[i].world, s->vertices[index].position,
+                      out.corners[out.count + k / 3][k % 3]);
+        }
+        out.count += p->index_count / 3;
+    }
+    return out;
+}
+
+// Distance along the ray, or infinity. By the determinants of Cramer's rule.
+static double meet(double p[3][3], const double from[3], const double direction[3])
+{
+    double e1[3], e2[3], to[3], h[3], q[3];
+    for (int k = 0; k < 3; ++k) {
+        e1[k] = p[1][k] - p[0][k];
+        e2[k] = p[2][k] - p[0][k];
+        to[k] = from[k] - p[0][k];
+    }
+    cross(direction, e2, h);
+    const double det = dot(e1, h);
+    if (fabs(det) < 1e-18)
+        return (double) INFINITY;
+    const double u = dot(to, h) / det;
+    cross(to, e1, q);
+    const double v = dot(direction, q) / det, t = dot(e2, q) / det;
+    return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 1e-6 ? t : (double) INFINITY;
+}
+
+double soup_nearest(const soup *s, const double from[3], const double direction[3], double limit)
+{
+    double best = limit;
+    for (size_t i = 0; i < s->count; ++i)
+        best = fmin(best, meet(s->corners[i], from, direction));
+    return best;
 }

@@ -26,4 +26,16 @@ double mesh_volume(const mesh *m);
 double mesh_area_from_below(const mesh *m);
 void mesh_bounds(const mesh *m, float lo[3], float hi[3]);
 
+// A scene's triangles as shown, in world space, for rays that try every one of them: slow, and
+// sharing nothing with the code that it checks.
+typedef struct soup {
+    size_t count;
+    double (*corners)[3][3]; // free() it; NULL: out of memory
+} soup;
+
+size_t scene_triangles(const ag_scene *s); // as shown, instances counted
+soup soup_of(const ag_scene *s);
+// Distance to the nearest triangle beyond 1e-6, in units of |direction|, or `limit`.
+double soup_nearest(const soup *s, const double from[3], const double direction[3], double limit);
+
 #endif // TEST_MESH_H

@@ -283,21 +283,22 @@ static void pattern_is_the_same_each_time(void **state)
     (void) state;
     for (int what = 0; what < PATTERN_COUNT; ++what) {
         uint8_t *a = painted((pattern) what, 64), *b = painted((pattern) what, 64);
-        assert_memory_equal(a, b, 64 * 64 * 4);
+        assert_memory_equal(a, b, (size_t) 64 * 64 * 4);
         free(a);
         free(b);
     }
 }
 
 // Mean absolute step between columns a and b.
-static double column_step(const uint8_t *rgba, int size, int a, int b)
+static double column_step(const uint8_t *rgba, size_t size, size_t a, size_t b)
 {
     double sum = 0.0;
-    for (int y = 0; y < size; ++y) {
-        for (int k = 0; k < 3; ++k)
-            sum += abs(rgba[4 * (y * size + a) + k] - rgba[4 * (y * size + b) + k]);
+    for (size_t y = 0; y < size; ++y) {
+        const uint8_t *row = rgba + 4 * size * y;
+        for (size_t k = 0; k < 3; ++k)
+            sum += abs(row[4 * a + k] - row[4 * b + k]);
     }
-    return sum / (3.0 * size);
+    return sum / (3.0 * (double) size);
 }
 
 static void pattern_has_no_seam_at_its_edge(void **state)
@@ -309,7 +310,7 @@ static void pattern_has_no_seam_at_its_edge(void **state)
     for (int i = 0; i < FG_COUNT(smooth); ++i) {
         uint8_t *rgba = painted(smooth[i], 256);
         double largest = 0.0;
-        for (int x = 0; x + 1 < 256; ++x)
+        for (size_t x = 0; x + 1 < 256; ++x)
             largest = fmax(largest, column_step(rgba, 256, x, x + 1));
         assert_true(column_step(rgba, 256, 255, 0) <= largest);
         free(rgba);
