@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "fixture.h"
+
+#include <stdio.h>
+
+static fg_status nothing(const fg_run *run, void *user)
+{
+    (void) run, (void) user;
+    return FG_OK;
+}
+
+static fg_status clear_texture(const fg_run *run, void *user)
+{
+    const uint32_t texture = fg_run_object(run, *(const fg_res *) user);
+    glClearTexImage(texture, 0, GL_RED, GL_FLOAT, NULL);
+    return FG_OK;
+}
+
+// Declares `count` passes named PREFIX.0, PREFIX.1, ...
+static void declare(fg_graph *g, const char *prefix, int count)
+{
+    char name[32];
+    fg_graph_begin(g, &(fg_frame_desc){ .width = 8, .height = 8 });
+    for (int i = 0; i < count; ++i) {
+        snprintf(name, sizeof name, "%s.%d", prefix, i);
+        const fg_pass_desc one = {
+            .name = name,
+            .kind = FG_KIND_COMPUTE,
+            .run = nothing,
+            .effect = FG_EFFECT_EXTERNAL,
+        };
+        fg_passes(g, &one, 1);
+    }
+    assert_int_equal(fg_graph_compile(g), FG_OK);
+}
+
+static void run(fg_graph *g, int frames)
+{
+    for (int i = 0; i < frames; ++i)
+        assert_int_equal(fg_graph_run(g), FG_OK);
+}
+
+static void timings_come_back_with_their_names(void **state)
+{
+    fixture *f = *state;
+    fg_graph *g = open_graph(f, 0, 0);
+    declare(g, "first", 3);
+    run(g, 3);
+    assert_int_equal(fg_gl_finish(f->device), FG_OK);
+    for (int i = 0; i < 3; ++i) {
+        fg_timing t;
+        char name[32];
+        snprintf(name, sizeof name, "first.%d", i);
+        assert_true(fg_graph_timing(g, i, &t));
+        assert_string_equal(t.pass, name);
+        assert_true(t.gpu_ms >= 0.0 && t.gpu_ms < 1000.0);
+        assert_true(t.gpu_start_ms >= 0.0 && t.gpu_start_ms < 1000.0);
+        assert_true(i > 0 || t.gpu_start_ms == 0.0);
+        assert_int_equal(t.frame, 2); // the newest
+    }
+    fg_graph_destroy(g);
+}
+
+static void timings_of_a_new_declaration_are_its_own(void **state)
+{
+    fixture *f = *state;
+    fg_graph *g = open_graph(f, 0, 0);
+    fg_timing t;
+    declare(g, "first", 3);
+    run(g, 2);
+    assert_int_equal(fg_gl_finish(f->device), FG_OK);
+    assert_true(fg_graph_timing(g, 0, &t));
+    assert_true(t.gpu_ms >= 0.0);
+    declare(g, "second", 2);
+    assert_true(fg_graph_timing(g, 0, &t));
+    assert_string_equal(t.pass, "second.0");
+    assert_true(t.gpu_ms < 0.0); // none has come back: not what "first.0" took
+    run(g, 1);
+    assert_int_equal(fg_gl_finish(f->device), FG_OK);
+    assert_true(fg_graph_timing(g, 1, &t));
+    assert_string_equal(t.pass, "second.1");
+    assert_true(t.gpu_ms >= 0.0);
+    assert_int_equal(t.frame, 2);
+    assert_false(fg_graph_timing(g, 2, &t));
+    fg_graph_destroy(g);
+}
+
+static void more_passes_than_before_are_all_timed(void **state)
+{
+    fixture *f = *state;
+    fg_graph *g = open_graph(f, 0, 0);
+    declare(g, "few", 2);
+    run(g, 1);
+    declare(g, "many", 100); // beyond the first size of the ring
+    run(g, 2);
+    assert_int_equal(fg_gl_finish(f->device), FG_OK);
+    for (int i = 0; i < 100; ++i) {
+        fg_timing t;
+        assert_true(fg_graph_timing(g, i, &t));
+        assert_true(t.gpu_ms >= 0.0);
+    }
+    fg_graph_destroy(g);
+}
+
+static void timings_come_without_waiting_within_some_frames(void **state)
+{
+    // Nothing but frames: no finish, no read back. On a GPU results lag by a few frames; the
+    // bound leaves room for a machine that does other things.
+    fixture *f = *state;
+    fg_graph *g = open_graph(f, 0, 0);
+    fg_timing t = { .gpu_ms = -1.0 };
+    fg_graph_begin(g, &(fg_frame_desc){ .width = 64, .height = 64 });
+    fg_res texture = fg_texture(g, "t", &(fg_tex_desc){ .format = FG_R32F });
+    const fg_pass_desc one = {
+        .name = "clear",
+        .kind = FG_KIND_COMPUTE,
+        .writes = { { texture, .load = FG_LOAD_DISCARD } },
+        .run = clear_texture,
+        .user = &texture,
+    };
+    fg_passes(g, &one, 1);
+    fg_export(g, texture);
+    assert_int_equal(fg_graph_compile(g), FG_OK);
+    int frames = 0;
+    for (; frames < 100000 && t.gpu_ms < 0.0; ++frames) {
+        run(g, 1);
+        assert_true(fg_graph_timing(g, 0, &t));
+    }
+    assert_true(t.gpu_ms >= 0.0);
+    assert_true(frames > 1); // never in the frame itself
+    fg_graph_destroy(g);
+}
+
+// ---- what a steady frame does ---------------------------------------------------------
+
+static int waits;
+static PFNGLGETQUERYOBJECTUI64VPROC real_result;
+static PFNGLGETQUERYOBJECTUIVPROC real_available;
+
+static void GLAPIENTRY check_result(GLuint query, GLenum name, GLuint64 *value)
+{
+    GLuint there = 0;
+    real_available(query, GL_QUERY_RESULT_AVAILABLE, &there);
+    waits += name == GL_QUERY_RESULT && !there;
+    real_result(query, name, value);
+}
+
+static void no_result_is_asked_for_before_it_is_there(void **state)
+{
+    fixture *f = *state;
+    fg_graph *g = open_graph(f, 0, 0);
+    declare(g, "pass", 20);
+    run(g, 1);
+    assert_int_equal(fg_gl_finish(f->device), FG_OK); // resolves the entry points
+    real_result = epoxy_glGetQueryObjectui64v;
+    real_available = epoxy_glGetQueryObjectuiv;
+    epoxy_glGetQueryObjectui64v = check_result;
+    waits = 0;
+    run(g, 200);
+    epoxy_glGetQueryObjectui64v = real_result;
+    assert_int_equal(waits, 0);
+    fg_graph_destroy(g);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+#define TEST(f) cmocka_unit_test_setup_teardown(f, open_gl, close_gl)
+        TEST(timings_come_back_with_their_names),
+        TEST(timings_of_a_new_declaration_are_its_own),
+        TEST(more_passes_than_before_are_all_timed),
+        TEST(timings_come_without_waiting_within_some_frames),
+        TEST(no_result_is_asked_for_before_it_is_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
