@@ -334,7 +334,8 @@ bool fg_graph_timing(const fg_graph *g, int i, fg_timing *out)
     *out = (fg_timing){ .pass = fg_graph_pass(g, i), .gpu_ms = -1 };
     double start, ms;
     uint64_t frame;
-    if (g->device->ops->timing(g->device, i, &start, &ms, &frame)) {
+    // Before its first run the device still has the timings of the graph before.
+    if (g->bound && g->device->ops->timing(g->device, i, &start, &ms, &frame)) {
         out->gpu_start_ms = start;
         out->gpu_ms = ms;
         out->frame = frame;
