@@ -38,9 +38,9 @@ static int copy_primitive(ag_builder *b, int primitive)
     *to = ((ag_primitive *) p->primitives.data)[primitive];
     *staged = ((ag_staged_skin *) p->staged.data)[primitive];
     size_t count = to->vertex_count, first = to->first_vertex;
-    if (p->vertices.count + count > SCENE_MAX_VERTICES)
+    if (p->vertices.count + count > AG_MAX_SCENE_VERTICES)
         return ag_builder_refuse(b, FG_ERR_INVALID, "primitives: more than %d vertices in all",
-                                 SCENE_MAX_VERTICES);
+                                 AG_MAX_SCENE_VERTICES);
     to->first_vertex = (uint32_t) p->vertices.count;
     ag_vertex *vertices = ag_array_push(&p->vertices, count, sizeof *vertices);
     if (!vertices)
@@ -174,6 +174,37 @@ static void first_worlds(ag_builder *b)
     }
 }
 
+// Files hide things by a scale of 0. What has no area at all would have no normals either.
+static void drop_hidden(ag_builder *b)
+{
+    ag_scene_private *p = b->p;
+    ag_instance *instances = p->instances.data;
+    int *skins = p->instance_skins.data;
+    const ag_node *nodes = p->nodes.data;
+    size_t kept = 0;
+    for (size_t i = 0; i < p->instances.count; i++) {
+        double normal[9], largest = 0;
+        ag_mat_normal(nodes[instances[i].node].world, normal);
+        for (int k = 0; k < 9; k++)
+            largest = fmax(largest, fabs(normal[k]));
+        if (largest == 0 && skins[i] < 0 && !nodes[instances[i].node].moving)
+            continue;
+        instances[kept] = instances[i];
+        skins[kept++] = skins[i];
+    }
+    if (kept < p->instances.count)
+        ag_builder_warn(b, "%zu instances are scaled to nothing and left out",
+                        p->instances.count - kept);
+    p->instances.count = p->instance_skins.count = kept;
+}
+
+static void say_how_many_warnings(const ag_builder *b)
+{
+    if (b->warnings > AG_MAX_SCENE_WARNINGS)
+        fg_logf(&b->p->log, FG_LOG_WARN, "%s: %d more repairs are not listed", b->p->label,
+                b->warnings - AG_MAX_SCENE_WARNINGS);
+}
+
 fg_status ag_scene_build(ag_builder *b, ag_scene **out)
 {
     *out = NULL;
@@ -196,6 +227,8 @@ fg_status ag_scene_build(ag_builder *b, ag_scene **out)
     first_worlds(b);
     if (b->status != FG_OK)
         goto fail;
+    drop_hidden(b);
+    say_how_many_warnings(b);
     spare->log = b->p->log;
     spare->label = label;
     ag_name_copy(scene->name, b->name);

@@ -66,8 +66,8 @@ void ag_builder_warn(ag_builder *b, const char *fmt, ...)
     va_start(args, fmt);
     vsnprintf(text, sizeof text, fmt, args);
     va_end(args);
-    fg_logf(&b->p->log, FG_LOG_WARN, "%s: %s", b->p->label, text);
-    b->warnings++;
+    if (b->warnings++ < AG_MAX_SCENE_WARNINGS)
+        fg_logf(&b->p->log, FG_LOG_WARN, "%s: %s", b->p->label, text);
 }
 
 bool ag_builder_open(ag_builder *b)
@@ -79,8 +79,8 @@ bool ag_builder_open(ag_builder *b)
 
 void *ag_builder_push(ag_builder *b, ag_array *a, size_t item_size, const char *what)
 {
-    if (a->count >= SCENE_MAX_ITEMS) {
-        ag_builder_refuse(b, FG_ERR_INVALID, "%s: more than %d", what, SCENE_MAX_ITEMS);
+    if (a->count >= AG_MAX_SCENE_ITEMS) {
+        ag_builder_refuse(b, FG_ERR_INVALID, "%s: more than %d", what, AG_MAX_SCENE_ITEMS);
         return NULL;
     }
     void *item = ag_array_push(a, 1, item_size);

@@ -66,13 +66,13 @@ static int check(ag_builder *b, const ag_primitive_desc *d, size_t corner_count)
 {
     const char *name = d->name ? d->name : "";
     size_t number = b->p->primitives.count;
-    if (!d->vertices || d->vertex_count == 0 || d->vertex_count > SCENE_MAX_VERTICES ||
-        corner_count > SCENE_MAX_INDICES)
+    if (!d->vertices || d->vertex_count == 0 || d->vertex_count > AG_MAX_SCENE_VERTICES ||
+        corner_count > AG_MAX_SCENE_INDICES)
         return ag_builder_refuse(b, FG_ERR_INVALID,
                                  "primitive %zu '%s': %zu vertices and %zu indices; there must be "
                                  "some and at most %d and %d",
-                                 number, name, d->vertex_count, corner_count, SCENE_MAX_VERTICES,
-                                 SCENE_MAX_INDICES);
+                                 number, name, d->vertex_count, corner_count, AG_MAX_SCENE_VERTICES,
+                                 AG_MAX_SCENE_INDICES);
     if (corner_count % 3 != 0)
         return ag_builder_refuse(b, FG_ERR_INVALID,
                                  "primitive %zu '%s': %zu indices, must be a multiple of 3", number,
@@ -293,11 +293,11 @@ static int copy_influences(ag_builder *b, const work *w, ag_staged_skin *staged)
 static int append(ag_builder *b, work *w, ag_primitive *out, ag_staged_skin *staged)
 {
     ag_scene_private *p = b->p;
-    if (p->vertices.count + w->used > SCENE_MAX_VERTICES ||
-        p->indices.count + w->kept > SCENE_MAX_INDICES)
+    if (p->vertices.count + w->used > AG_MAX_SCENE_VERTICES ||
+        p->indices.count + w->kept > AG_MAX_SCENE_INDICES)
         return ag_builder_refuse(b, FG_ERR_INVALID,
                                  "primitive %zu: more than %d vertices or %d indices in all",
-                                 p->primitives.count, SCENE_MAX_VERTICES, SCENE_MAX_INDICES);
+                                 p->primitives.count, AG_MAX_SCENE_VERTICES, AG_MAX_SCENE_INDICES);
     out->first_vertex = (uint32_t) p->vertices.count;
     out->vertex_count = (uint32_t) w->used;
     out->first_index = (uint32_t) p->indices.count;

@@ -14,12 +14,12 @@ int ag_builder_texture_take(ag_builder *b, const ag_texture *texture, uint8_t *r
     if (!ag_builder_open(b))
         goto fail;
     ag_array *textures = &b->p->textures;
-    if (texture->width < 1 || texture->height < 1 || texture->width > SCENE_MAX_TEXTURE_SIDE ||
-        texture->height > SCENE_MAX_TEXTURE_SIDE) {
+    if (texture->width < 1 || texture->height < 1 || texture->width > AG_MAX_SCENE_TEXTURE_SIDE ||
+        texture->height > AG_MAX_SCENE_TEXTURE_SIDE) {
         ag_builder_refuse(b, FG_ERR_INVALID,
                           "texture %zu '%.63s': size is %dx%d, must be 1 to %d a side",
                           textures->count, texture->name, texture->width, texture->height,
-                          SCENE_MAX_TEXTURE_SIDE);
+                          AG_MAX_SCENE_TEXTURE_SIDE);
         goto fail;
     }
     copy = ag_builder_push(b, textures, sizeof *copy, "textures");
@@ -43,8 +43,8 @@ int ag_builder_texture(ag_builder *b, const ag_texture *texture)
                                  b->p->textures.count, texture->name);
     // Sizes out of range are refused below; they must not decide how much is copied.
     bool sized = texture->width > 0 && texture->height > 0 &&
-                 texture->width <= SCENE_MAX_TEXTURE_SIDE &&
-                 texture->height <= SCENE_MAX_TEXTURE_SIDE;
+                 texture->width <= AG_MAX_SCENE_TEXTURE_SIDE &&
+                 texture->height <= AG_MAX_SCENE_TEXTURE_SIDE;
     size_t bytes = sized ? (size_t) texture->width * (size_t) texture->height * 4 : 1;
     uint8_t *pixels = malloc(bytes);
     if (!pixels)
@@ -161,9 +161,9 @@ static const char *channel_fault(const ag_channel_desc *d)
 {
     if (d->interpolation < AG_INTERPOLATE_LINEAR || d->interpolation > AG_INTERPOLATE_CUBIC)
         return "its interpolation does not exist";
-    if (d->animation < 0 || d->animation >= SCENE_MAX_ANIMATIONS)
+    if (d->animation < 0 || d->animation >= AG_MAX_SCENE_ANIMATIONS)
         return "its animation number is out of range";
-    if (d->key_count < 1 || d->key_count > SCENE_MAX_ITEMS)
+    if (d->key_count < 1 || d->key_count > AG_MAX_SCENE_ITEMS)
         return "it has no keys, or absurdly many";
     for (int i = 0; i < d->key_count; i++) {
         if (!isfinite(d->times[i]) || d->times[i] < 0)

@@ -30,6 +30,12 @@ size_t gltf_element_size(const gltf_accessor *a)
     return column_stride(a) * (size_t) a->columns;
 }
 
+size_t gltf_element_extent(const gltf_accessor *a)
+{
+    return column_stride(a) * (size_t) (a->columns - 1) +
+           gltf_component_size(a->component_type) * (size_t) a->rows;
+}
+
 static const uint8_t *view_data(const gltf_model *m, int view, size_t offset)
 {
     const gltf_view *v = &m->views[view];

@@ -123,7 +123,7 @@ static bool check_sparse(gltf_loader *l, int i)
         return false;
     size_t count = (size_t) a->sparse_count;
     if (!fits(l, i, a->index_view, (size_t) a->index_offset, count, index_size, index_size) ||
-        !fits(l, i, a->value_view, (size_t) a->value_offset, count, size, size))
+        !fits(l, i, a->value_view, (size_t) a->value_offset, count, gltf_element_extent(a), size))
         return false;
     gltf_reader r = gltf_reader_open(l->m, i);
     uint32_t last = 0;
@@ -150,7 +150,8 @@ static bool check_accessor(gltf_loader *l, int i)
         return refuse(l, "accessor", i, "its count is absurd for one without a bufferView");
     if (a->view >= 0) {
         size_t stride = l->m->views[a->view].stride;
-        if (!fits(l, i, a->view, a->offset, a->count, size, stride > 0 ? stride : size))
+        if (!fits(l, i, a->view, a->offset, a->count, gltf_element_extent(a),
+                  stride > 0 ? stride : size))
             return false;
     }
     return !a->sparse || check_sparse(l, i);

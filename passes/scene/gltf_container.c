@@ -89,7 +89,7 @@ fg_status gltf_read_file(const char *path, uint8_t **out, size_t *size, char fau
 static const char *uri_fault(const char *uri, size_t length)
 {
     if (length == 0 || strlen(uri) != length)
-        return "is empty or has a NUL in it";
+        return "has a NUL in it";
     if (uri[0] == '/' || uri[0] == '\\')
         return "is absolute";
     size_t scheme = 0;
@@ -111,6 +111,8 @@ int gltf_open_uri(gltf_files *files, const char *uri, size_t length, size_t *siz
 {
     char fault[GLTF_FAULT] = "", path[4096];
     int file = -1;
+    if (length == 0 && files->fault[0] == '\0')
+        fail(files->fault, "a buffer or image has no URI");
     const char *wrong = uri_fault(uri, length);
     if (!wrong && !files->folder)
         wrong = "is a file; none is read here";

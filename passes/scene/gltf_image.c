@@ -27,8 +27,8 @@ const char *gltf_picture_probe(gltf_picture *p)
         return "it has 2 GiB or more";
     if (!stbi_info_from_memory(p->bytes, (int) p->size, &p->width, &p->height, &channels))
         return "its header is broken";
-    if (p->width < 1 || p->height < 1 || p->width > SCENE_MAX_TEXTURE_SIDE ||
-        p->height > SCENE_MAX_TEXTURE_SIDE)
+    if (p->width < 1 || p->height < 1 || p->width > AG_MAX_SCENE_TEXTURE_SIDE ||
+        p->height > AG_MAX_SCENE_TEXTURE_SIDE)
         return "it is larger than 16384 texels a side";
     return NULL;
 }

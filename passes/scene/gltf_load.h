@@ -18,7 +18,7 @@ typedef struct ag_load_desc {
 } ag_load_desc;
 
 // ag_scene_load() of a file that is in memory already.
-FG_API fg_status ag_scene_load_memory(const ag_load_desc *desc, ag_scene **out);
+fg_status ag_scene_load_memory(const ag_load_desc *desc, ag_scene **out);
 
 // What loading one file carries along.
 typedef struct gltf_loader {
@@ -77,8 +77,9 @@ typedef struct gltf_reader {
 
 // Bytes of a component; 0: not one of glTF's.
 size_t gltf_component_size(int component_type);
-// Bytes of an element, columns of matrices at multiples of 4.
+// Bytes of an element, columns of matrices at multiples of 4; and without the last one's padding.
 size_t gltf_element_size(const gltf_accessor *a);
+size_t gltf_element_extent(const gltf_accessor *a);
 gltf_reader gltf_reader_open(const gltf_model *m, int accessor);
 // columns x rows values of element `i`, below `count`.
 void gltf_read_floats(const gltf_reader *r, size_t i, float *out);

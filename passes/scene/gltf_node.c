@@ -227,7 +227,7 @@ static bool load_channel(gltf_loader *l, int animation, const gltf_channel *c)
         .interpolation = strcmp(curve->interpolation, "STEP") == 0     ? AG_INTERPOLATE_STEP
                          : strcmp(curve->interpolation, "LINEAR") == 0 ? AG_INTERPOLATE_LINEAR
                                                                        : AG_INTERPOLATE_CUBIC,
-        .key_count = keys < SCENE_MAX_ITEMS ? (int) keys : SCENE_MAX_ITEMS + 1,
+        .key_count = keys < AG_MAX_SCENE_ITEMS ? (int) keys : AG_MAX_SCENE_ITEMS + 1,
         .animation = animation,
     };
     float *times = read_all(l, curve->input, 1);

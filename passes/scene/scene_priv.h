@@ -6,11 +6,12 @@
 #include <pass/scene.h>
 
 enum {
-    SCENE_MAX_ITEMS = 1 << 24,    // materials, nodes, instances, ... of each kind
-    SCENE_MAX_VERTICES = 1 << 28, // so that 32-bit byte offsets of a 16-byte item suffice
-    SCENE_MAX_INDICES = 1 << 30,
-    SCENE_MAX_TEXTURE_SIDE = 16384, // texels
-    SCENE_MAX_ANIMATIONS = 1000000,
+    AG_MAX_SCENE_ITEMS = 1 << 24,    // materials, nodes, instances, ... of each kind
+    AG_MAX_SCENE_VERTICES = 1 << 28, // so that 32-bit byte offsets of a 16-byte item suffice
+    AG_MAX_SCENE_INDICES = 1 << 30,
+    AG_MAX_SCENE_TEXTURE_SIDE = 16384, // texels
+    AG_MAX_SCENE_ANIMATIONS = 1000000,
+    AG_MAX_SCENE_WARNINGS = 30, // a broken file may need thousands of repairs
 };
 
 // A growing array of one type.
@@ -120,11 +121,11 @@ void ag_name_copy(char out[64], const char *name);
 fg_status ag_builder_set_label(ag_builder *b, const char *label);
 // Logs the first refusal and keeps its status. Always -1.
 int ag_builder_refuse(ag_builder *b, fg_status status, const char *fmt, ...) FG_PRINTF(3, 4);
-// Logs and counts a repair.
+// Counts a repair, and logs the first AG_MAX_SCENE_WARNINGS.
 void ag_builder_warn(ag_builder *b, const char *fmt, ...) FG_PRINTF(2, 3);
 // Whether a call may go on: nothing refused yet, not built yet.
 bool ag_builder_open(ag_builder *b);
-// A new item at the end of an array of at most SCENE_MAX_ITEMS, or NULL after a refusal.
+// A new item at the end of an array of at most AG_MAX_SCENE_ITEMS, or NULL after a refusal.
 void *ag_builder_push(ag_builder *b, ag_array *a, size_t item_size, const char *what);
 
 // As ag_builder_texture(), but `rgba` came from malloc() and is taken over, refused or not.
