@@ -37,6 +37,7 @@ static int copy_primitive(ag_builder *b, int primitive)
         return -1;
     *to = ((ag_primitive *) p->primitives.data)[primitive];
     *staged = ((ag_staged_skin *) p->staged.data)[primitive];
+    to->skinned = false;
     size_t count = to->vertex_count, first = to->first_vertex;
     if (p->vertices.count + count > AG_MAX_SCENE_VERTICES)
         return ag_builder_refuse(b, FG_ERR_INVALID, "primitives: more than %d vertices in all",
