@@ -94,7 +94,7 @@ static void sweep(atrium *a, int pivot)
     ag_builder_channel(a->k.builder, &channel);
 }
 
-// A spot high above the north side's roof: about 7 W/m^2 on the court's floor.
+// A spot high above the north side's roof: about 6 W/m^2 on the court's floor.
 static void add_light(atrium *a)
 {
     const double from[3] = { 0, 19.0, -7.6 };
@@ -107,7 +107,7 @@ static void add_light(atrium *a)
     const ag_light spot = {
         .name = "sun",
         .kind = AG_LIGHT_SPOT,
-        .intensity = { 3000.0f, 2780.0f, 2400.0f }, // W/sr
+        .intensity = { 2600.0f, 2410.0f, 2080.0f }, // W/sr
         .cos_inner = cosf(0.36f),
         .cos_outer = cosf(0.44f),
     };
