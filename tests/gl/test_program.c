@@ -91,7 +91,7 @@ static void failure_names_shader_defines_and_line(void **state)
     assert_int_equal(build(f, &writer_comp, "OTHER=1"), 0);
     assert_non_null(strstr(f->said, "tests/gl/writer.comp [OTHER=1]: does not compile: "));
     assert_non_null(strstr(f->said, "VALUE")); // the driver's message
-    log_takes(f, "12"); // its line
+    log_takes(f, "12");                        // its line
     assert_int_equal(build(f, &writer_comp, "OTHER=1"), 0);
     assert_string_equal(f->said, ""); // said once
     assert_int_not_equal(build(f, &writer_comp, "VALUE=1"), 0);
