@@ -177,6 +177,8 @@ static bool plan_clears(fg_graph *g)
         p->step[p->step_count].clear = p->clear_count; // where this step's begin, see add_clear()
         if (!clears_of_step(g, i))
             return false;
+        for (uint32_t k = p->step[i].clear; k < p->clear_count; k++)
+            p->step[i].clears |= p->clear[k].flags & CLEAR_IF_ON;
     }
     p->step[p->step_count].clear = p->clear_count;
     return true;
@@ -220,6 +222,16 @@ static void note(const barrier_state *b, const touch *t, uint32_t now)
     }
 }
 
+// After a full overwrite that OpenGL orders, what shaders stored before no longer shows.
+static void forget(const barrier_state *b, const touch *t)
+{
+    for (uint32_t m = t->mip; m < t->mip_end; m++) {
+        sub_state *row = &b->p->sub[b->p->slot[t->slot].subs + m * t->layers];
+        for (uint32_t l = t->layer; l < t->layer_end; l++)
+            row[l].write = 0;
+    }
+}
+
 static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
 {
     const io_rec *io = &b->d->io[k];
@@ -230,24 +242,21 @@ static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
         return false;
     const res_rec *r = &b->d->res[io->res];
     const bool flat = r->depth > 0;
-    *t = (touch){
-        .slot = slot,
-        .layers = flat ? 1 : sub_layers(r),
-        .mip = io->mip,
-        .mip_end = (uint32_t) io->mip + io->mips,
-        .layer = flat ? 0 : io->layer,
-        .layer_end = flat ? 1 : (uint32_t) io->layer + io->layers,
-        .bit = use_bit(io->use),
-        .incoherent =
-            (io->flags & IO_WRITE) && (io->use == FG_USE_IMAGE || io->use == FG_USE_STORAGE),
-    };
+    t->slot = slot;
+    t->layers = flat ? 1 : sub_layers(r);
+    t->mip = io->mip;
+    t->mip_end = (uint32_t) io->mip + io->mips;
+    t->layer = flat ? 0 : io->layer;
+    t->layer_end = flat ? 1 : (uint32_t) io->layer + io->layers;
+    t->bit = use_bit(io->use);
+    t->incoherent = (io->flags & IO_WRITE) && (io->use == FG_USE_IMAGE || io->use == FG_USE_STORAGE);
     return true;
 }
 
 static bool touch_of_clear(const barrier_state *b, const clear_rec *c, touch *t)
 {
     const uint32_t slot = b->p->res[c->res].slot;
-    if (!(c->flags & CLEAR_IF_ON) || !b->p->slot[slot].incoherent)
+    if (!b->p->slot[slot].incoherent)
         return false;
     const res_rec *r = &b->d->res[c->res];
     *t = (touch){
@@ -268,28 +277,46 @@ static void issue(barrier_state *b, unsigned bits, uint32_t now)
         b->at[__builtin_ctz(bits)] = now;
 }
 
+// The clears of a step that are done when its pass is on.
+static void barriers_of_clears(barrier_state *b, step_rec *s, uint32_t now)
+{
+    touch t;
+    for (uint32_t k = s->clear; k < s[1].clear; k++)
+        if ((b->p->clear[k].flags & CLEAR_IF_ON) && touch_of_clear(b, &b->p->clear[k], &t))
+            s->clear_bits |= (uint16_t) needs_of(b, &t, now + 1);
+    issue(b, s->clear_bits, now);
+    for (uint32_t k = s->clear; k < s[1].clear; k++) {
+        const clear_rec *c = &b->p->clear[k];
+        if (!(c->flags & CLEAR_IF_ON) || !touch_of_clear(b, c, &t))
+            continue;
+        note(b, &t, now + 1);
+        if (c->flags & CLEAR_IF_OFF)
+            forget(b, &t);
+    }
+}
+
 // Four positions a step: barrier, clears, barrier, pass.
 static void barriers_of_step(barrier_state *b, uint32_t step, uint32_t now)
 {
     step_rec *s = &b->p->step[step];
     const pass_rec *rec = &b->d->pass[s->pass];
     const uint32_t end = rec->io + rec->reads + rec->writes;
-    touch t;
+    touch touches[FG_MAX_READS + FG_MAX_WRITES], t;
+    uint32_t count = 0;
     s->clear_bits = s->bits = 0;
-    for (uint32_t k = s->clear; k < s[1].clear; k++)
-        if (touch_of_clear(b, &b->p->clear[k], &t))
-            s->clear_bits |= (uint16_t) needs_of(b, &t, now + 1);
-    issue(b, s->clear_bits, now);
-    for (uint32_t k = s->clear; k < s[1].clear; k++)
-        if (touch_of_clear(b, &b->p->clear[k], &t))
-            note(b, &t, now + 1);
+    if (s->clear != s[1].clear)
+        barriers_of_clears(b, s, now);
     for (uint32_t k = rec->io; k < end; k++)
-        if (touch_of_io(b, k, &t))
-            s->bits |= (uint16_t) needs_of(b, &t, now + 3);
+        count += touch_of_io(b, k, &touches[count]);
+    for (uint32_t i = 0; i < count; i++)
+        s->bits |= (uint16_t) needs_of(b, &touches[i], now + 3);
     issue(b, s->bits, now + 2);
-    for (uint32_t k = rec->io; k < end; k++)
-        if (touch_of_io(b, k, &t))
-            note(b, &t, now + 3);
+    // A first write that discards: cleared when the pass is off, so new either way.
+    for (uint32_t k = s->clear; count && k < s[1].clear; k++)
+        if (b->p->clear[k].flags == CLEAR_IF_OFF && touch_of_clear(b, &b->p->clear[k], &t))
+            forget(b, &t);
+    for (uint32_t i = 0; i < count; i++)
+        note(b, &touches[i], now + 3);
 }
 
 // At the end of a frame what was this frame's becomes last frame's.

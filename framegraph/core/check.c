@@ -38,25 +38,25 @@ const char *fg_range_text(char *buf, size_t size, const res_rec *r, const io_rec
 
 // ---- names ----------------------------------------------------------------------------
 
-// Open addressing over record numbers + 1.
+// Open addressing; an entry is a hash and a record number + 1.
 static void check_names(fg_graph *g, bool passes, uint32_t mask)
 {
     const decl *d = g->open;
     const uint32_t count = passes ? d->pass_count : d->res_count;
-    memset(g->table, 0, ((size_t) mask + 1) * sizeof *g->table);
+    memset(g->table, 0, 2 * ((size_t) mask + 1) * sizeof *g->table);
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t hash = passes ? d->pass[i].hash : d->res[i].hash;
         const char *name = passes ? pass_name(d, i) : res_name(d, i);
-        uint32_t at = hash & mask;
-        for (; g->table[at]; at = (at + 1) & mask) {
-            const uint32_t k = g->table[at] - 1;
+        const uint32_t hash = fg_hash(name, strlen(name));
+        uint32_t *entry = &g->table[2 * (hash & mask)];
+        for (uint32_t at = hash; entry[1]; entry = &g->table[2 * (++at & mask)]) {
+            const uint32_t k = entry[1] - 1;
             g->work++;
-            if ((passes ? d->pass[k].hash : d->res[k].hash) == hash &&
-                !strcmp(name, passes ? pass_name(d, k) : res_name(d, k)))
+            if (entry[0] == hash && !strcmp(name, passes ? pass_name(d, k) : res_name(d, k)))
                 fg_decl_fail(g, FG_ERR_INVALID, "%s '%s': the name is taken by another %s",
                              passes ? "pass" : "resource", name, passes ? "pass" : "resource");
         }
-        g->table[at] = i + 1;
+        entry[0] = hash;
+        entry[1] = i + 1;
     }
 }
 
@@ -217,7 +217,7 @@ static bool room(fg_graph *g, uint32_t *mask)
     *mask = 15;
     while (*mask < 2 * (uint64_t) most)
         *mask = 2 * *mask + 1;
-    if (most < NONE / 8 && GROW(g, g->table, g->table_cap, (uint64_t) *mask + 1) &&
+    if (most < NONE / 8 && GROW(g, g->table, g->table_cap, 2 * ((uint64_t) *mask + 1)) &&
         GROW(g, g->stack, g->stack_cap, 2 * (uint64_t) d->pass_count + 1) &&
         GROW(g, p->res, p->res_cap, d->res_count) &&
         GROW(g, p->order, p->order_cap, d->pass_count) &&

@@ -34,7 +34,7 @@ static void check_use(fg_graph *g, uint32_t pass, const io_rec *io)
     }
     if (!(r->flags & RES_TEXTURE))
         return;
-    const fg_format_info *f = fg_format_get((fg_format) r->format);
+    const fg_format_info *f = &fg_formats[r->format];
     if ((io->use == FG_USE_IMAGE && !f->image) || (io->use == FG_USE_COLOR && !f->color) ||
         (io->use == FG_USE_DEPTH && !f->depth))
         fg_decl_fail(g, FG_ERR_INVALID, "pass '%s' uses '%s' as %s, which format %s does not allow",
@@ -127,7 +127,7 @@ void fg_check_uses(fg_graph *g, uint32_t pass)
         if (io[k].use == FG_USE_COLOR || io[k].use == FG_USE_DEPTH)
             check_attachment(g, pass, &io[k], &t);
     }
-    const int most = g->device->ops->limits(g->device)->max_color_attachments;
+    const int most = g->limits->max_color_attachments;
     if (t.colors > most)
         fg_decl_fail(g, FG_ERR_UNSUPPORTED,
                      "pass '%s' has %d colour attachments, the device has %d", pass_name(d, pass),

@@ -17,6 +17,7 @@ fg_graph *fg_graph_create(const fg_graph_desc *desc)
     }
     memset(g, 0, sizeof *g);
     g->device = desc->device;
+    g->limits = desc->device->ops->limits(desc->device);
     g->log = desc->log;
     g->allocator = desc->allocator;
     g->debug = desc->debug;
@@ -133,7 +134,7 @@ static void commit(fg_graph *g)
     g->time_count = 0;
     g->compiles++;
     for (uint32_t i = 0; g->off_count && i < g->plan->step_count; i++)
-        g->plan->step[i].off = switch_off(g, i);
+        g->plan->step[i].off = (uint16_t) switch_off(g, i);
     fg_logf(g->log, FG_LOG_DEBUG, "graph: compiled %d passes, %d kept, in %llu steps",
             g->plan->stats.declared, g->plan->stats.kept, (unsigned long long) g->work);
 }

@@ -143,7 +143,7 @@ static uint64_t texture_bytes(const res_rec *r)
     for (int m = 0; m < r->mips; m++)
         texels += (uint64_t) at_mip(r->width, m) * (uint64_t) at_mip(r->height, m) *
                   (uint64_t) (r->depth ? at_mip(r->depth, m) : 1);
-    const fg_format_info *f = fg_format_get((fg_format) r->format);
+    const fg_format_info *f = &fg_formats[r->format];
     return texels * sub_layers(r) * r->samples * (uint64_t) f->bytes;
 }
 
@@ -169,7 +169,7 @@ static bool frame_size(fg_graph *g, const char *name, const fg_tex_desc *desc, r
 
 static bool within_limits(fg_graph *g, const char *name, const fg_tex_desc *desc, const res_rec *r)
 {
-    const fg_device_limits *l = g->device->ops->limits(g->device);
+    const fg_device_limits *l = g->limits;
     const int size = desc->depth ? l->max_3d_size : l->max_texture_size;
     if (r->width <= size && r->height <= size && desc->depth <= size &&
         desc->layers <= l->max_layers && desc->samples <= l->max_samples)
@@ -223,7 +223,7 @@ static bool buffer_shape(fg_graph *g, const char *name, const fg_buf_desc *desc,
         REFUSE("buffer '%s': size is 0 bytes, must be positive", name);
     if ((unsigned) desc->history > FG_HISTORY_DISCARD)
         REFUSE("buffer '%s': history policy %d does not exist", name, (int) desc->history);
-    const uint64_t most = g->device->ops->limits(g->device)->max_buffer_bytes;
+    const uint64_t most = g->limits->max_buffer_bytes;
     if (desc->size > most) {
         fg_decl_fail(g, FG_ERR_UNSUPPORTED,
                      "buffer '%s': %llu bytes is more than the device's %llu", name,
@@ -242,7 +242,6 @@ static fg_res add_resource(fg_graph *g, const char *name, res_rec *r)
     decl *d = g->open;
     const size_t length = strlen(name);
     r->name = fg_decl_text(g, name, length);
-    r->hash = fg_hash(name, length);
     if (!r->name || !GROW(g, d->res, d->res_cap, d->res_count + 1)) {
         fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory while declaring '%s'", name);
         return (fg_res){ 0 };

@@ -56,7 +56,7 @@ static fg_use default_use(const res_rec *r, bool write, fg_kind kind)
         return FG_USE_SAMPLED;
     if (kind == FG_KIND_COMPUTE)
         return FG_USE_IMAGE;
-    return fg_format_get((fg_format) r->format)->depth ? FG_USE_DEPTH : FG_USE_COLOR;
+    return fg_formats[r->format].depth ? FG_USE_DEPTH : FG_USE_COLOR;
 }
 
 static bool take_io(fg_graph *g, const fg_pass_desc *pass, const fg_io *in, bool write, io_rec *out)
@@ -166,7 +166,6 @@ static bool add_pass(fg_graph *g, const fg_pass_desc *in)
     const size_t length = strlen(in->name);
     pass_rec p = {
         .needs = in->needs,
-        .hash = fg_hash(in->name, length),
         .io = d->io_count,
         .clear = d->clear_count,
         .kind = (uint8_t) in->kind,

@@ -155,7 +155,7 @@ static fg_status run_step(fg_graph *g, uint32_t step, fg_pass_begin *begin)
     }
     if (s->clear_bits)
         ops->barrier(g->device, s->clear_bits);
-    if (s->clear != s[1].clear)
+    if (s->clears)
         clear_resources(g, step, CLEAR_IF_ON);
     if (s->bits)
         ops->barrier(g->device, s->bits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fg/format.h>
+#include "graph_priv.h"
 
 // View classes are the bits of a texel: OpenGL 4.5, table 8.22. Depth formats have none.
 #define COLOR(n, b, c, img, flt, integer)                                                          \
@@ -20,7 +20,7 @@
                  .is_float = (flt) }
 
 // Bytes are those of memory: the 32-bit float depth with stencil is padded to 8.
-static const fg_format_info formats[FG_FORMAT_COUNT] = {
+const fg_format_info fg_formats[FG_FORMAT_COUNT] = {
     COLOR(RGBA16F, 8, 4, true, true, false),
     COLOR(RGBA32F, 16, 4, true, true, false),
     COLOR(RG32F, 8, 2, true, true, false),
@@ -48,5 +48,5 @@ static const fg_format_info formats[FG_FORMAT_COUNT] = {
 
 const fg_format_info *fg_format_get(fg_format format)
 {
-    return (unsigned) format < FG_FORMAT_COUNT ? &formats[format] : NULL;
+    return (unsigned) format < FG_FORMAT_COUNT ? &fg_formats[format] : NULL;
 }

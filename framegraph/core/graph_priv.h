@@ -48,12 +48,13 @@ enum {
 
 typedef struct res_rec {
     uint64_t bytes;      // device memory; of a buffer its size
-    uint32_t name, hash; // offset into decl.text
+    uint32_t name;       // offset into decl.text
     uint32_t import;     // index into decl.import, or NONE
     int32_t width, height, depth;
     uint16_t layers;
     uint8_t mips, samples;
     uint8_t format, flags, history, zero;
+    uint32_t zero2;
 } res_rec;
 _Static_assert(sizeof(res_rec) == 40, "no padding");
 
@@ -80,13 +81,13 @@ enum { PASS_ABSENT = 1 }; // an optional read was the null handle
 
 typedef struct pass_rec {
     uint64_t needs;
-    uint32_t name, hash, io;
+    uint32_t name, io;
     uint32_t reason; // left out: offset of the reason in decl.text, else 0
     uint32_t clear;  // first of its values in decl.clear
     uint8_t reads, writes, kind, effect;
-    uint32_t flags, zero;
+    uint32_t flags;
 } pass_rec;
-_Static_assert(sizeof(pass_rec) == 40, "no padding");
+_Static_assert(sizeof(pass_rec) == 32, "no padding");
 
 typedef struct callback {
     fg_status (*run)(const fg_run *run, void *user);
@@ -199,7 +200,8 @@ typedef struct step_rec {
     uint32_t clear;      // first clear; they end at the next step's
     uint16_t clear_bits; // barrier before the clears
     uint16_t bits;       // barrier before the pass
-    uint32_t off;        // nonzero: disabled
+    uint16_t clears;     // nonzero: something is cleared when the pass is on
+    uint16_t off;        // nonzero: the pass is off
 } step_rec;
 
 typedef struct plan {
@@ -244,7 +246,7 @@ typedef struct history_rec {
     group_key key;
     uint64_t bytes;
     uint32_t object[2]; // 0: none
-    uint32_t format, hash;
+    uint32_t format;
     uint32_t res; // in the compiled graph, or NONE
     int current;  // what this frame writes
     bool valid;
@@ -258,6 +260,7 @@ typedef struct step_time {
 
 struct fg_graph {
     fg_device *device;
+    const fg_device_limits *limits; // asked once
     const fg_log *log;
     fg_allocator allocator;
     unsigned debug;
@@ -287,7 +290,7 @@ struct fg_graph {
     int compiles;
     int pool_width, pool_height;
 
-    uint32_t *table; // scratch: names, then groups, then others
+    uint32_t *table; // scratch: names with their hashes, then groups, then others
     uint32_t *stack;
     uint32_t table_cap, stack_cap;
     uint64_t work; // steps of the loops of the last compile
@@ -310,6 +313,8 @@ struct fg_run {
     uint32_t pass, step;
     fg_status status; // of accesses
 };
+
+extern const fg_format_info fg_formats[FG_FORMAT_COUNT];
 
 static inline const char *res_name(const decl *d, uint32_t res)
 {

@@ -27,9 +27,8 @@ static void destroy_objects(fg_graph *g, history_rec *h)
 
 static history_rec *find(fg_graph *g, uint32_t res)
 {
-    const uint32_t hash = g->built->res[res].hash;
     for (uint32_t i = 0; i < g->history_count; i++)
-        if (g->history[i].hash == hash && !strcmp(g->history[i].name, res_name(g->built, res)))
+        if (!strcmp(g->history[i].name, res_name(g->built, res)))
             return &g->history[i];
     return NULL;
 }
@@ -48,7 +47,6 @@ static history_rec *add(fg_graph *g, uint32_t res)
     memcpy(copy, name, length);
     history_rec *h = &g->history[g->history_count++];
     *h = (history_rec){ .name = copy,
-                        .hash = g->built->res[res].hash,
                         .key = fg_group_of(&g->built->res[res]),
                         .format = g->built->res[res].format,
                         .bytes = g->built->res[res].bytes };

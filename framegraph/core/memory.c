@@ -40,17 +40,27 @@ void fg_release(const fg_allocator *a, void *ptr)
         resize(a, ptr, 0);
 }
 
+static uint64_t mix(uint64_t h, uint64_t word)
+{
+    h = (h ^ word) * 0xff51afd7ed558ccdu;
+    return h ^ h >> 32;
+}
+
 uint32_t fg_hash(const void *bytes, size_t size)
 {
     const char *at = bytes;
-    uint64_t h = 0x9e3779b97f4a7c15u ^ size, word;
-    for (; size >= 8; size -= 8, at += 8) {
+    uint64_t h = 0x9e3779b97f4a7c15u ^ size, word = 0;
+    size_t left = size;
+    for (; left >= 8; left -= 8, at += 8) {
         memcpy(&word, at, 8);
-        h = (h ^ word) * 0xff51afd7ed558ccdu;
-        h ^= h >> 32;
+        h = mix(h, word);
     }
-    word = 0;
-    memcpy(&word, at, size);
-    h = (h ^ word) * 0xff51afd7ed558ccdu;
-    return (uint32_t) (h ^ h >> 32);
+    if (size >= 8 && left) {
+        memcpy(&word, at + left - 8, 8); // the last eight, some of them again
+    } else {
+        for (word = 0; left; left--)
+            word = word << 8 | (unsigned char) at[left - 1];
+    }
+    // A product's bits depend only on lower ones: twice, so that the last byte reaches all.
+    return (uint32_t) (mix(h, word) * 0xc4ceb9fe1a85ec53u >> 32);
 }

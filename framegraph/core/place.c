@@ -27,7 +27,7 @@ group_key fg_group_of(const res_rec *r)
     group_key k = { .size = r->bytes };
     if (!(r->flags & RES_TEXTURE))
         return k;
-    const int view_class = fg_format_get((fg_format) r->format)->view_class;
+    const int view_class = fg_formats[r->format].view_class;
     k.texture = 1;
     k.cube = (r->flags & RES_CUBE) != 0;
     k.width = r->width;
