@@ -166,6 +166,26 @@ static bool prepare_written(fg_graph *g)
     return true;
 }
 
+// What outlives the frame must not show what nobody wrote: cleared after the last step.
+static bool clears_of_end(fg_graph *g)
+{
+    const decl *d = g->open;
+    plan *p = g->next;
+    for (uint32_t r = 0; r < d->res_count; r++) {
+        const res_rec *rec = &d->res[r];
+        const uint32_t slot = p->res[r].slot;
+        if (slot == NONE ||
+            (p->slot[slot].kind != SLOT_HISTORY && p->slot[slot].kind != SLOT_EXPORT))
+            continue;
+        const io_rec whole = { .res = r,
+                               .mips = rec->mips,
+                               .layers = (uint16_t) (rec->depth ? 1u : sub_layers(rec)) };
+        if (!clear_for(g, &whole, NONE))
+            return false;
+    }
+    return true;
+}
+
 static bool plan_clears(fg_graph *g)
 {
     plan *p = g->next;
@@ -181,6 +201,9 @@ static bool plan_clears(fg_graph *g)
             p->step[i].clears |= p->clear[k].flags & CLEAR_IF_ON;
     }
     p->step[p->step_count].clear = p->clear_count;
+    if (!clears_of_end(g))
+        return false;
+    p->step[p->step_count + 1].clear = p->clear_count;
     return true;
 }
 
@@ -249,7 +272,8 @@ static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
     t->layer = flat ? 0 : io->layer;
     t->layer_end = flat ? 1 : (uint32_t) io->layer + io->layers;
     t->bit = use_bit(io->use);
-    t->incoherent = (io->flags & IO_WRITE) && (io->use == FG_USE_IMAGE || io->use == FG_USE_STORAGE);
+    t->incoherent =
+        (io->flags & IO_WRITE) && (io->use == FG_USE_IMAGE || io->use == FG_USE_STORAGE);
     return true;
 }
 

@@ -222,7 +222,7 @@ static bool room(fg_graph *g, uint32_t *mask)
         GROW(g, p->res, p->res_cap, d->res_count) &&
         GROW(g, p->order, p->order_cap, d->pass_count) &&
         GROW(g, p->step_of, p->step_of_cap, d->pass_count) &&
-        GROW(g, p->step, p->step_cap, (uint64_t) d->pass_count + 1) &&
+        GROW(g, p->step, p->step_cap, (uint64_t) d->pass_count + 2) &&
         GROW(g, p->absent, p->absent_cap, d->io_count))
         return true;
     fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory for %u passes", d->pass_count);

@@ -180,6 +180,10 @@ static fg_status run_steps(fg_graph *g)
         before = after;
     }
     g->time_count = g->plan->step_count;
+    const step_rec *end = &g->plan->step[g->plan->step_count];
+    if (end->clear != end[1].clear && g->plan->incoherent)
+        g->device->ops->barrier(g->device, FG_BARRIER_COPY);
+    clear_resources(g, g->plan->step_count, CLEAR_IF_ON);
     return FG_OK;
 }
 

@@ -47,9 +47,9 @@ enum {
 };
 
 typedef struct res_rec {
-    uint64_t bytes;      // device memory; of a buffer its size
-    uint32_t name;       // offset into decl.text
-    uint32_t import;     // index into decl.import, or NONE
+    uint64_t bytes;  // device memory; of a buffer its size
+    uint32_t name;   // offset into decl.text
+    uint32_t import; // index into decl.import, or NONE
     int32_t width, height, depth;
     uint16_t layers;
     uint8_t mips, samples;
@@ -209,7 +209,7 @@ typedef struct plan {
     version_rec *version;
     uint32_t *order;   // all passes in a legal order
     uint32_t *step_of; // pass -> step, NONE if it does not run
-    step_rec *step;    // one more than step_count
+    step_rec *step;    // two more than step_count: the end of the frame, and of its clears
     slot_rec *slot;
     group_rec *group;
     sub_state *sub;

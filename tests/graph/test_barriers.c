@@ -31,9 +31,10 @@ static void buffer_consumers_wait_by_their_own_bit(void **state) // C90
         rig *r = rig_open(0);
         rig_begin(r);
         const fg_res b = rig_buf(r, "b");
-        PASSES(r,
-               PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { b, .load = FG_LOAD_DISCARD } }),
-               PASS(r, "use", SHOW, .reads = { { b, cases[i].use } }));
+        PASSES(
+            r,
+            PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { b, .load = FG_LOAD_DISCARD } }),
+            PASS(r, "use", SHOW, .reads = { { b, cases[i].use } }));
         char expected[160];
         // The next frame's write waits for this frame's read: the writer's bit.
         snprintf(expected, sizeof expected,
@@ -56,12 +57,14 @@ static void texture_consumers_wait_by_their_own_bit(void **state) // C90
         rig *r = rig_open(0);
         rig_begin(r);
         const fg_res a = rig_tex(r, "a");
-        PASSES(r,
-               PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
-               PASS(r, "use", SHOW, .reads = { { a, cases[i].use } }));
+        PASSES(
+            r,
+            PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
+            PASS(r, "use", SHOW, .reads = { { a, cases[i].use } }));
         char expected[160];
         snprintf(expected, sizeof expected,
-                 "barrier image\npass fill compute\nbarrier %s\npass use\nend frame\n", cases[i].bit);
+                 "barrier image\npass fill compute\nbarrier %s\npass use\nend frame\n",
+                 cases[i].bit);
         assert_string_equal(second_frame(r), expected);
         rig_close(r);
     }
@@ -73,7 +76,8 @@ static void attachment_after_an_image_write_waits(void **state) // C90, C91
     rig *r = rig_open(0);
     rig_begin(r);
     const fg_res a = rig_tex(r, "a"), b = fg_next(a);
-    PASSES(r, PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
+    PASSES(r,
+           PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
            PASS(r, "draw", .writes = { { b } }), PASS(r, "show", SHOW, .reads = { { b } }));
     // What "draw" leaves as it was still comes from the image write: sampling waits, too.
     assert_string_equal(second_frame(r), "barrier image\npass fill compute\nbarrier attachment\n"
@@ -132,13 +136,15 @@ static void second_reader_needs_no_second_barrier(void **state) // C93
     rig *r = rig_open(0);
     rig_begin(r);
     const fg_res a = rig_tex(r, "a");
-    PASSES(r, PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
+    PASSES(r,
+           PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
            PASS(r, "one", SHOW, .reads = { { a } }), PASS(r, "two", SHOW, .reads = { { a } }),
            PASS(r, "three", SHOW, .reads = { { a, FG_USE_IMAGE } }),
            PASS(r, "four", SHOW, .reads = { { a }, { a, FG_USE_IMAGE } }));
-    assert_string_equal(second_frame(r), "barrier image\npass fill compute\nbarrier sampled\n"
-                                         "pass one\npass two\nbarrier image\npass three\npass four\n"
-                                         "end frame\n");
+    assert_string_equal(second_frame(r),
+                        "barrier image\npass fill compute\nbarrier sampled\n"
+                        "pass one\npass two\nbarrier image\npass three\npass four\n"
+                        "end frame\n");
     rig_close(r);
 }
 
@@ -155,8 +161,9 @@ static void one_barrier_serves_all_that_was_written_before(void **state)
                             { c, .load = FG_LOAD_DISCARD } }),
            PASS(r, "one", SHOW, .reads = { { a }, { c, FG_USE_UNIFORM } }),
            PASS(r, "two", SHOW, .reads = { { b } }));
-    assert_string_equal(second_frame(r), "barrier image|storage\npass fill compute\n"
-                                         "barrier sampled|uniform\npass one\npass two\nend frame\n");
+    assert_string_equal(second_frame(r),
+                        "barrier image|storage\npass fill compute\n"
+                        "barrier sampled|uniform\npass one\npass two\nend frame\n");
     rig_close(r);
 }
 
@@ -165,7 +172,8 @@ static void disjoint_mips_need_no_barrier(void **state) // C94
     (void) state;
     rig *r = rig_open(0);
     rig_begin(r);
-    const fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .mips = 2, .layers = 2 }), b = fg_next(a);
+    const fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .mips = 2, .layers = 2 }),
+                 b = fg_next(a);
     const fg_res c = fg_next(b);
     PASSES(r,
            PASS(r, "one", .kind = FG_KIND_COMPUTE,
@@ -190,10 +198,11 @@ static void barriers_are_the_same_every_frame_and_from_the_cached_plan(void **st
     for (int i = 0; i < 4; i++) {
         rig_begin(r);
         const fg_res a = rig_tex(r, "a"), b = rig_tex(r, "b");
-        PASSES(r,
-               PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
-               PASS(r, "draw", .reads = { { a } }, .writes = { { b, .load = FG_LOAD_CLEAR } }),
-               PASS(r, "show", SHOW, .reads = { { b } }));
+        PASSES(
+            r,
+            PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
+            PASS(r, "draw", .reads = { { a } }, .writes = { { b, .load = FG_LOAD_CLEAR } }),
+            PASS(r, "show", SHOW, .reads = { { b } }));
         rig_must_compile(r);
         rig_must_run(r);
         const char *steps = strchr(strstr(fg_null_log(r->dev), "frame "), '\n');
@@ -211,8 +220,9 @@ static void histories_wait_across_frames(void **state)
     rig *r = rig_open(0);
     rig_begin(r);
     const fg_res h = fg_texture(r->g, "h", &(fg_tex_desc){ .history = FG_HISTORY_CLEAR });
-    PASSES(r, PASS(r, "blend", SHOW, .kind = FG_KIND_COMPUTE, .reads = { { fg_last_frame(r->g, h) } },
-                   .writes = { { h, .load = FG_LOAD_DISCARD } }));
+    PASSES(r,
+           PASS(r, "blend", SHOW, .kind = FG_KIND_COMPUTE, .reads = { { fg_last_frame(r->g, h) } },
+                .writes = { { h, .load = FG_LOAD_DISCARD } }));
     // Last frame's image is sampled, and the one from before, sampled last frame, is stored to.
     assert_string_equal(second_frame(r), "barrier sampled|image\npass blend compute\nend frame\n");
     rig_close(r);
@@ -224,7 +234,9 @@ static void memory_shared_by_transients_waits(void **state)
     rig *r = rig_open(0);
     rig_begin(r);
     const fg_res a = rig_tex(r, "a"), b = rig_tex(r, "b");
-    PASSES(r, PASS(r, "store", SHOW, .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }),
+    PASSES(r,
+           PASS(r, "store", SHOW, .kind = FG_KIND_COMPUTE,
+                .writes = { { a, .load = FG_LOAD_DISCARD } }),
            PASS(r, "draw", SHOW, .writes = { { b, .load = FG_LOAD_DISCARD } }));
     assert_int_equal(fg_graph_get_stats(r->g).pool_bytes, 0);
     // "b" is drawn into what "a" was stored to; next frame "a" stores where "b" was drawn.
@@ -240,7 +252,8 @@ static void imports_wait_across_frames(void **state)
     rig *r = rig_open(0);
     rig_begin(r);
     const fg_res a = fg_import_buffer(r->g, "a", &(fg_buf_desc){ 16 }, 50);
-    PASSES(r, PASS(r, "count", .kind = FG_KIND_COMPUTE, .reads = { { a } }, .writes = { { fg_next(a) } }));
+    PASSES(r, PASS(r, "count", .kind = FG_KIND_COMPUTE, .reads = { { a } },
+                   .writes = { { fg_next(a) } }));
     assert_string_equal(second_frame(r), "barrier storage\npass count compute\nend frame\n");
     rig_close(r);
 }
@@ -251,7 +264,8 @@ static void plan_after_one_with_image_writes_starts_with_a_full_barrier(void **s
     rig *r = rig_open(0);
     rig_begin(r);
     const fg_res a = rig_tex(r, "a");
-    PASSES(r, PASS(r, "store", SHOW, .kind = FG_KIND_COMPUTE, .writes = { { a, .load = FG_LOAD_DISCARD } }));
+    PASSES(r, PASS(r, "store", SHOW, .kind = FG_KIND_COMPUTE,
+                   .writes = { { a, .load = FG_LOAD_DISCARD } }));
     rig_must_compile(r);
     rig_must_run(r);
     rig_begin(r);
@@ -278,10 +292,11 @@ static void first_partial_write_is_cleared_to_zero(void **state)
     PASSES(r, PASS(r, "draw", .writes = { { a } }), PASS(r, "more", .writes = { { fg_next(a) } }),
            PASS(r, "fill", .kind = FG_KIND_COMPUTE, .writes = { { b } }),
            PASS(r, "show", SHOW, .reads = { { fg_next(a) }, { b } }));
-    assert_string_equal(second_frame(r),
-                        "clear 1 mips 0+1 layers 0+1 to 0 0 0 0\npass draw 64x64 color 1\n"
-                        "pass more 64x64 color 1\nbarrier copy\nclear 2 to 0 0 0 0\n"
-                        "barrier storage\npass fill compute\nbarrier storage\npass show\nend frame\n");
+    assert_string_equal(
+        second_frame(r),
+        "clear 1 mips 0+1 layers 0+1 to 0 0 0 0\npass draw 64x64 color 1\n"
+        "pass more 64x64 color 1\nbarrier copy\nclear 2 to 0 0 0 0\n"
+        "barrier storage\npass fill compute\nbarrier storage\npass show\nend frame\n");
     rig_close(r);
 }
 
@@ -335,12 +350,13 @@ static void parts_of_a_write_have_their_own_load(void **state) // C83
     rig *r = rig_open(0);
     rig_begin(r);
     const fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .layers = 3 });
-    PASSES(r,
-           PASS(r, "draw", .kind = FG_KIND_COMPUTE,
-                .writes = { { a, .layer = 0, .layers = 1 },
-                            { a, .layer = 1, .layers = 1, .load = FG_LOAD_DISCARD },
-                            { a, .layer = 2, .layers = 1, .load = FG_LOAD_CLEAR, .clear = { 7 } } }),
-           PASS(r, "show", SHOW, .reads = { { a } }));
+    PASSES(
+        r,
+        PASS(r, "draw", .kind = FG_KIND_COMPUTE,
+             .writes = { { a, .layer = 0, .layers = 1 },
+                         { a, .layer = 1, .layers = 1, .load = FG_LOAD_DISCARD },
+                         { a, .layer = 2, .layers = 1, .load = FG_LOAD_CLEAR, .clear = { 7 } } }),
+        PASS(r, "show", SHOW, .reads = { { a } }));
     rig_must_compile(r);
     rig_must_run(r);
     assert_non_null(strstr(fg_null_log(r->dev), "clear 1 mips 0+1 layers 0+1 to 0 0 0 0\n"
@@ -377,7 +393,8 @@ static void reader_of_one_mip_lets_the_others_go(void **state) // C81
     (void) state;
     rig *r = rig_open(0);
     rig_begin(r);
-    const fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .mips = 3 }), b = fg_next(a), c = fg_next(b);
+    const fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .mips = 3 }), b = fg_next(a),
+                 c = fg_next(b);
     PASSES(r, PASS(r, "mip0", .writes = { { a, .mip = 0, .mips = 1 } }),
            PASS(r, "mip1", .writes = { { b, .mip = 1, .mips = 1 } }),
            PASS(r, "mip2", .writes = { { c, .mip = 2, .mips = 1 } }),
@@ -396,14 +413,16 @@ static void compute_mip_chain_waits_once_a_mip(void **state)
     rig_begin(r);
     const fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .mips = 2 }), b = fg_next(a);
     PASSES(r,
-           PASS(r, "mip0", .kind = FG_KIND_COMPUTE, .writes = { { a, .mips = 1, .load = FG_LOAD_DISCARD } }),
+           PASS(r, "mip0", .kind = FG_KIND_COMPUTE,
+                .writes = { { a, .mips = 1, .load = FG_LOAD_DISCARD } }),
            PASS(r, "mip1", .kind = FG_KIND_COMPUTE, .reads = { { a, .mips = 1 } },
                 .writes = { { b, .mip = 1, .load = FG_LOAD_DISCARD } }),
            PASS(r, "show", SHOW, .reads = { { b } }));
     // Before "show" the sampled bit again, for mip 1; mip 1's write needs no wait of its own,
     // as the frame's first barrier came after all that touched it.
-    assert_string_equal(second_frame(r), "barrier image\npass mip0 compute\nbarrier sampled\n"
-                                         "pass mip1 compute\nbarrier sampled\npass show\nend frame\n");
+    assert_string_equal(second_frame(r),
+                        "barrier image\npass mip0 compute\nbarrier sampled\n"
+                        "pass mip1 compute\nbarrier sampled\npass show\nend frame\n");
     rig_close(r);
 }
 
@@ -415,8 +434,9 @@ static void cube_is_attached_face_by_face_or_as_a_whole(void **state)
     const fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .cube = true }), b = fg_next(a);
     PASSES(r, PASS(r, "all", .writes = { { a, .load = FG_LOAD_DISCARD } }),
            PASS(r, "one", SHOW, .writes = { { b, .layer = 4, .layers = 1 } }));
-    assert_string_equal(second_frame(r),
-                        "pass all 64x64 color 1 layered\npass one 64x64 color 1 layer 4\nend frame\n");
+    assert_string_equal(
+        second_frame(r),
+        "pass all 64x64 color 1 layered\npass one 64x64 color 1 layer 4\nend frame\n");
     rig_close(r);
 }
 
