@@ -17,6 +17,7 @@ static fg_log_level message_level(GLenum source, GLenum type, GLenum severity)
     return severity == GL_DEBUG_SEVERITY_MEDIUM ? FG_LOG_WARN : FG_LOG_DEBUG;
 }
 
+// NOLINTNEXTLINE(readability-function-size): the parameters are OpenGL's
 static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity,
                                 GLsizei length, const GLchar *message, const void *user)
 {

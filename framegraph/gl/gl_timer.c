@@ -72,8 +72,8 @@ static void read_frame(gl_timers *t, gl_timer_frame *f)
     for (int i = 0; i < t->capacity; ++i) {
         if (!f->issued[i])
             continue;
-        const uint64_t begin = query_ns(f->queries[2 * i]);
-        const uint64_t end = query_ns(f->queries[2 * i + 1]);
+        const GLuint *pair = f->queries + 2 * (size_t) i;
+        const uint64_t begin = query_ns(pair[0]), end = query_ns(pair[1]);
         first = begin < first ? begin : first;
         t->results[i] = (gl_timer_result){
             .start_ms = (double) begin, // made relative below
@@ -136,7 +136,7 @@ void gl_timers_mark(gl_device *d, int timer, bool end)
     if (t->current < 0 || timer < 0 || timer >= t->capacity)
         return;
     gl_timer_frame *f = &t->frames[t->current];
-    const GLuint query = f->queries[2 * timer + end];
+    const GLuint query = f->queries[2 * (size_t) timer + end];
     glQueryCounter(query, GL_TIMESTAMP);
     if (end) {
         f->issued[timer] = true;

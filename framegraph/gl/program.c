@@ -54,7 +54,7 @@ static uint64_t hash_of(const fg_gl_program_desc *desc, const char *defines)
 {
     uint64_t hash = PROGRAM_HASH_SEED;
     for (int i = 0; i < PROGRAM_STAGES && desc->shaders[i]; ++i)
-        hash = program_hash(hash, &desc->shaders[i], sizeof desc->shaders[i]);
+        hash = program_hash(hash, &desc->shaders[i], sizeof(void *)); // by address
     return program_hash(hash, defines, strlen(defines));
 }
 
@@ -72,7 +72,7 @@ static bool grow(gl_programs *p)
 {
     const int capacity = p->capacity ? 2 * p->capacity : 64;
     const uint64_t mask = (uint64_t) capacity - 1;
-    program **places = calloc((size_t) capacity, sizeof *places);
+    program **places = calloc((size_t) capacity, sizeof(void *));
     if (!places)
         return false;
     for (int i = 0; i < p->capacity; ++i) {

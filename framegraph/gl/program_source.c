@@ -25,7 +25,7 @@ static void append(text *t, const char *bytes, size_t length)
 {
     if (t->failed)
         return;
-    if (t->length + length + 1 > t->capacity) {
+    if (!t->bytes || t->length + length + 1 > t->capacity) {
         const size_t capacity = 2 * (t->length + length + 1);
         char *more = realloc(t->bytes, capacity);
         if (!more) {

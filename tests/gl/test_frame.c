@@ -21,14 +21,20 @@ enum { W = 13, H = 11 };
 
 typedef struct pass {
     fg_res from, to, args;
-    int mip;
     const char *defines;
-    fg_gl_filter filter;
+    int mip;
 } pass;
+
+// What cell.glsl says of texel `i` of rows of `width`.
+static float cell_of(int i, int width)
+{
+    const int row = i / width;
+    return (float) (i - row * width + 4096 * row);
+}
 
 static float cell(int i)
 {
-    return (float) (i % W + 4096 * (i / W));
+    return cell_of(i, W);
 }
 
 static fg_status use(const fg_run *run, const fg_gl_program_desc *desc)
@@ -343,7 +349,7 @@ static void mip_chain_by_successive_passes_sums_up(void **state)
     run(g);
     glGetTextureImage(fg_graph_exported(g, last), MIPS - 1, GL_RED, GL_FLOAT, sizeof got, &got);
     for (int i = 0; i < SIDE * SIDE; ++i)
-        sum += (float) (i % SIDE + 4096 * (i / SIDE)); // whole numbers below 2^24: exact
+        sum += cell_of(i, SIDE); // whole numbers below 2^24: exact
     assert_true(got == sum);
     fg_graph_destroy(g);
 }
@@ -402,7 +408,7 @@ static void one_layer_is_attached_alone(void **state)
     glGetTextureImage(fg_graph_exported(g, draw.to), 0, GL_RED, GL_FLOAT, sizeof got, got);
     for (int i = 0; i < SIDE * SIDE * FACES; ++i) {
         const int texel = i % (SIDE * SIDE);
-        const float number = (float) (texel % SIDE + 4096 * (texel / SIDE));
+        const float number = cell_of(texel, SIDE);
         assert_true(got[i] == (i / (SIDE * SIDE) == 3 ? number : 0.0f));
     }
     fg_graph_destroy(g);
@@ -437,7 +443,7 @@ static void image_of_an_array_has_all_layers(void **state)
     run(g);
     glGetTextureImage(fg_graph_exported(g, store.to), 0, GL_RED, GL_FLOAT, sizeof got, got);
     for (int i = 0; i < 8 * 8 * 3; ++i)
-        assert_true(got[i] == 100.0f * (float) (1 + i / 64));
+        assert_true(got[i] == (i < 64 ? 100.0f : i < 128 ? 200.0f : 300.0f));
     fg_graph_destroy(g);
 }
 

@@ -66,26 +66,28 @@ static fg_status attach(fixture *f, uint32_t object, const fg_tex_desc *desc)
 
 // ---- creation -------------------------------------------------------------------
 
+static void make_shape(fixture *f, const shape *of, fg_format format)
+{
+    const fg_format_info *info = fg_format_get(format);
+    fg_tex_desc desc = of->desc;
+    desc.format = format;
+    if (info->depth && desc.depth > 0)
+        return; // OpenGL has no 3D depth textures
+    const uint32_t object = create(f, of->name, &desc);
+    clear_all(f, object, &desc, NULL);
+    clear_all(f, object, &desc, (const float[4]){ 1, 0, 0, 1 });
+    if (info->color || info->depth)
+        assert_int_equal(attach(f, object, &desc), FG_OK);
+    f->device->ops->texture_destroy(f->device, object);
+    if (fg_gl_error_count(f->device))
+        fail_msg("%s %s: %s", info->name, of->name, f->said);
+}
+
 static void every_format_makes_every_shape(void **state)
 {
-    fixture *f = *state;
-    for (int format = 0; format < FG_FORMAT_COUNT; ++format) {
-        const fg_format_info *info = fg_format_get((fg_format) format);
-        for (int i = 0; i < FG_COUNT(shapes); ++i) {
-            fg_tex_desc desc = shapes[i].desc;
-            desc.format = (fg_format) format;
-            if (info->depth && desc.depth > 0)
-                continue; // OpenGL has no 3D depth textures
-            const uint32_t object = create(f, shapes[i].name, &desc);
-            clear_all(f, object, &desc, NULL);
-            clear_all(f, object, &desc, (const float[4]){ 1, 0, 0, 1 });
-            if (info->color || info->depth)
-                assert_int_equal(attach(f, object, &desc), FG_OK);
-            f->device->ops->texture_destroy(f->device, object);
-            if (fg_gl_error_count(f->device))
-                fail_msg("%s %s: %s", info->name, shapes[i].name, f->said);
-        }
-    }
+    for (int format = 0; format < FG_FORMAT_COUNT; ++format)
+        for (int i = 0; i < FG_COUNT(shapes); ++i)
+            make_shape(*state, &shapes[i], (fg_format) format);
 }
 
 static void textures_and_buffers_carry_their_labels(void **state)
@@ -233,7 +235,8 @@ static void colour_clears_to_its_value_in_every_mip(void **state)
             const int texels = mip ? 16 : 64;
             glGetTextureImage(object, mip, GL_RGBA, GL_FLOAT, sizeof got, got);
             for (int i = 0; i < texels; ++i)
-                expect_texel(info, &got[4 * i], expected, tolerance_of(desc.format) + 1e-6f);
+                expect_texel(info, got + 4 * (size_t) i, expected,
+                             tolerance_of(desc.format) + 1e-6f);
         }
         f->device->ops->texture_destroy(f->device, object);
     }
