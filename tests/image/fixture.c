@@ -10,14 +10,14 @@
 static fg_gl_context *context;
 static fg_device *dev;
 static gi_registry *registry;
-static char text[8192];
+static char text[8192], warnings[8192];
 
 static void remember(void *user, fg_log_level level, const char *msg)
 {
     (void) user;
-    const size_t used = strlen(text);
-    if (level == FG_LOG_ERROR)
-        snprintf(text + used, sizeof text - used, "%s\n", msg);
+    char *to = level == FG_LOG_ERROR ? text : warnings;
+    const size_t used = strlen(to);
+    snprintf(to + used, sizeof text - used, "%s\n", msg);
 }
 
 const fg_log *test_log(void)
@@ -31,9 +31,14 @@ const char *log_text(void)
     return text;
 }
 
+const char *warnings_text(void)
+{
+    return warnings;
+}
+
 void log_clear(void)
 {
-    text[0] = 0;
+    text[0] = warnings[0] = 0;
 }
 
 fg_device *device(void)

@@ -20,6 +20,7 @@ fg_device *device(void);
 // Where all messages of a test go; errors are kept for asserting on. Cleared by log_clear().
 const fg_log *test_log(void);
 const char *log_text(void);
+const char *warnings_text(void); // likewise
 void log_clear(void);
 
 // A room of `edge` metres about `centre`, open to nobody: six diffuse walls seen from inside.
