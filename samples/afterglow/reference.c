@@ -244,7 +244,10 @@ fg_status reference_render(const reference_desc *desc, image *out)
         j.columns = (desc->width + TILE - 1) / TILE;
         j.tiles = j.columns * ((desc->height + TILE - 1) / TILE);
         pthread_mutex_init(&j.lock, NULL);
-        run(&j);
+        j.failed = !lights_prepare(&j.tracer);
+        if (!j.failed)
+            run(&j);
+        lights_finish(&j.tracer);
         pthread_mutex_destroy(&j.lock);
         ag_rays_destroy(rays);
     }

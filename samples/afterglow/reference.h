@@ -13,7 +13,8 @@ FG_BEGIN
 //
 // Bounces count transports from surface to surface. 0: what a surface emits and what it reflects
 // of punctual lights. N: also light that went from surface to surface up to N times; the light
-// of an emissive surface on another one is thus bounce 1. `direct` is bounce 0, `indirect` the rest.
+// of an emissive surface on another one is thus bounce 1. `direct` is bounce 0, `indirect` the
+// rest.
 typedef enum reference_layer {
     REFERENCE_RADIANCE = 0, // direct + indirect
     REFERENCE_DIRECT,
@@ -33,8 +34,8 @@ typedef struct reference_desc {
     const ag_scene *scene; // at its time
     const ag_camera *camera;
     int width, height;
-    int bounces;      // [0, 64]
-    int spp;          // samples a pixel, [1, 1048576]
+    int bounces; // [0, 64]
+    int spp;     // samples a pixel, [1, 1048576]
     uint64_t seed;
     reference_layer layer;
     reference_filter filter;

@@ -25,7 +25,13 @@ typedef struct tracer {
     double origin[3]; // world position of the rays' origin
     int bounces;
     bool unshadowed;
+    double middle[3], radius; // a sphere around the scene, relative to `origin`
+    double *shares;           // of each light in what light_ray() picks; sums to 1 or is all 0
 } tracer;
+
+typedef struct ray {
+    float from[3], direction[3]; // relative to the tracer's origin
+} ray;
 
 // A point on a surface and what it is like for whom looks at it from one side.
 typedef struct point {
@@ -37,6 +43,10 @@ typedef struct point {
 } point;
 
 void point_of(const tracer *t, const ag_hit *hit, point *out);
+
+double vec_dot(const double a[3], const double b[3]);
+// The unit vector whose cosine to the unit vector `axis` is `cosine`, turned by `angle` around it.
+void vec_around(const double axis[3], double cosine, double angle, double out[3]);
 
 // What the point sends to its viewer of punctual lights, shadowed, plus what it emits: bounce 0.
 void point_direct(const tracer *t, const point *p, double out[3]);
@@ -51,5 +61,19 @@ typedef struct hit_list {
 // memory for `list`, which only unshadowed bounces use.
 bool point_indirect(const tracer *t, const point *p, sampler s, uint32_t index, hit_list *list,
                     double out[3]);
+
+// ---- rays from lights (reference_light.c) ---------------------------------------------
+
+// Of a tracer with scene, rays and origin. False: out of memory.
+bool lights_prepare(tracer *t);
+void lights_finish(tracer *t);
+
+// A ray that a light sends: `pick` and `u` in [0, 1) choose which. Its number, -1: no light is
+// worth it.
+int light_ray(const tracer *t, double pick, const double u[2], ray *out);
+
+// How densely light_ray() covers the surface at the point by that light, per sample and m^2.
+double light_density(const tracer *t, int light, const point *p, const double to_light[3],
+                     double distance);
 
 #endif // REFERENCE_PRIV_H
