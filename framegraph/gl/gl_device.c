@@ -14,6 +14,8 @@ static fg_log_level message_level(GLenum source, GLenum type, GLenum severity)
         return FG_LOG_DEBUG; // no GL error: program.c says it with the names of shader and defines
     if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH)
         return FG_LOG_ERROR;
+    if (type == GL_DEBUG_TYPE_PERFORMANCE)
+        return FG_LOG_INFO; // a read back that waits is medium to some drivers, and meant
     return severity == GL_DEBUG_SEVERITY_MEDIUM ? FG_LOG_WARN : FG_LOG_DEBUG;
 }
 
@@ -22,14 +24,14 @@ static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum se
                                 GLsizei length, const GLchar *message, const void *user)
 {
     gl_device *d = (gl_device *) user;
-    const fg_log_level level = message_level(source, type, severity);
+    fg_log_level level = message_level(source, type, severity);
 
     while (length > 0 && (message[length - 1] == '\n' || message[length - 1] == '\0'))
         --length; // some drivers end with a line break
     if (type == GL_DEBUG_TYPE_ERROR && source == GL_DEBUG_SOURCE_API)
         ++d->heard;
     if (type == GL_DEBUG_TYPE_ERROR && d->allocating)
-        return; // counted by gl_drain_errors(), which knows what kind of error it is
+        level = FG_LOG_WARN; // gl_drain_errors() knows what kind of error it is, and counts
     if (level == FG_LOG_ERROR)
         ++d->errors;
     fg_logf(d->log, level, "gl: %.*s (message %u)", (int) length, message, id);

@@ -527,6 +527,79 @@ static void history_carries_a_count_from_frame_to_frame(void **state)
     fg_graph_destroy(g);
 }
 
+// ---- what the host owns -------------------------------------------------------------
+
+static uint32_t host_texture(void)
+{
+    uint32_t texture;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, GL_R32F, W, H);
+    return texture;
+}
+
+static void imported_texture_of_an_old_name_is_drawn_to_once_forgotten(void **state)
+{
+    fixture *f = *state;
+    float got[W * H];
+    fg_graph *g = open_graph(f, 0, 0);
+    for (int round = 0; round < 3; ++round) { // the same name each time, on most drivers
+        pass draw = { 0 };
+        const uint32_t texture = host_texture();
+        begin(g);
+        const fg_tex_desc desc = { .format = FG_R32F, .width = W, .height = H };
+        draw.to = fg_next(fg_import_texture(g, "host", &desc, texture));
+        const fg_pass_desc one = {
+            .name = "draw",
+            .writes = { { draw.to, .load = FG_LOAD_DISCARD } },
+            .run = draw_cells,
+            .user = &draw,
+        };
+        fg_passes(g, &one, 1);
+        run(g);
+        read_floats(texture, got, W * H);
+        for (int i = 0; i < W * H; ++i)
+            assert_true(got[i] == cell(i));
+        fg_gl_forget_texture(f->device, texture);
+        glDeleteTextures(1, &texture);
+    }
+    fg_graph_destroy(g);
+}
+
+// ---- a lost context -------------------------------------------------------------------
+
+static GLenum GLAPIENTRY context_is_lost(void)
+{
+    return GL_GUILTY_CONTEXT_RESET;
+}
+
+static void lost_context_ends_the_frame_and_all_that_follow(void **state)
+{
+    fixture *f = *state;
+    pass store = { 0 };
+    fg_graph *g = open_graph(f, 0, 0);
+    begin(g);
+    store.to = cells_texture(g, "cells");
+    const fg_pass_desc one = {
+        .name = "store",
+        .kind = FG_KIND_COMPUTE,
+        .writes = { { store.to, .load = FG_LOAD_DISCARD } },
+        .run = store_cells,
+        .user = &store,
+    };
+    fg_passes(g, &one, 1);
+    fg_export(g, store.to);
+    run(g);
+    const PFNGLGETGRAPHICSRESETSTATUSPROC status = epoxy_glGetGraphicsResetStatus;
+    epoxy_glGetGraphicsResetStatus = context_is_lost;
+    assert_int_equal(fg_graph_run(g), FG_ERR_DEVICE);
+    epoxy_glGetGraphicsResetStatus = status;
+    log_takes(f, "gl device: the context is lost (0x8253)");
+    assert_int_equal(fg_graph_run(g), FG_ERR_DEVICE);
+    assert_int_equal(fg_gl_finish(f->device), FG_ERR_DEVICE);
+    f->said[0] = '\0'; // what the graph says of it is its own matter
+    fg_graph_destroy(g);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -543,6 +616,8 @@ int main(void)
         TEST(image_of_an_array_has_all_layers),
         TEST(shadow_filter_lights_what_is_nearer),
         TEST(history_carries_a_count_from_frame_to_frame),
+        TEST(imported_texture_of_an_old_name_is_drawn_to_once_forgotten),
+        TEST(lost_context_ends_the_frame_and_all_that_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

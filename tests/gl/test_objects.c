@@ -105,6 +105,22 @@ static void textures_and_buffers_carry_their_labels(void **state)
     f->device->ops->buffer_destroy(f->device, buffer);
 }
 
+static void long_names_are_cut(void **state)
+{
+    fixture *f = *state;
+    char name[5000];
+    uint32_t buffer;
+    memset(name, 'n', sizeof name);
+    name[sizeof name - 1] = '\0';
+    const uint32_t texture = create(f, name, &shapes[0].desc);
+    assert_int_equal(f->device->ops->buffer_create(f->device, name, 64, &buffer), FG_OK);
+    const fg_pass_begin begin = { .name = name, .timer = -1, .kind = FG_KIND_COMPUTE };
+    assert_int_equal(f->device->ops->pass_begin(f->device, &begin), FG_OK);
+    f->device->ops->pass_end(f->device, &begin);
+    f->device->ops->texture_destroy(f->device, texture);
+    f->device->ops->buffer_destroy(f->device, buffer);
+}
+
 static void refuses(fixture *f, const fg_tex_desc *desc, fg_status expected, const char *said)
 {
     uint32_t object = 77;
@@ -481,6 +497,7 @@ int main(void)
 #define TEST(f) cmocka_unit_test_setup_teardown(f, open_gl, close_gl)
         TEST(every_format_makes_every_shape),
         TEST(textures_and_buffers_carry_their_labels),
+        TEST(long_names_are_cut),
         TEST(sizes_beyond_the_limits_are_refused),
         TEST(texture_larger_than_memory_is_refused),
         TEST(buffer_larger_than_memory_is_refused),

@@ -54,7 +54,8 @@ FG_API bool fg_gl_get_device_info(int n, fg_gl_device_info *info);
 typedef struct fg_gl_device_desc {
     const fg_log *log;
     const char *shader_dir; // Development: read shaders below this folder (by the names they were
-                            // embedded under) and rebuild on change. NULL: the embedded ones.
+                            // embedded under) and rebuild on change. One that is not there is the
+                            // embedded one, with a warning. NULL: the embedded ones.
     const char *cache_dir;  // Program binaries, where the driver has them. NULL: none.
 } fg_gl_device_desc;
 
@@ -90,8 +91,9 @@ FG_API FG_NODISCARD fg_status fg_gl_device_create(const fg_gl_device_desc *desc,
 FG_API void fg_gl_forget_texture(fg_device *dev, uint32_t object);
 
 // GL errors and high-severity messages seen since creation. Tests demand 0. Sees every
-// error in a debug context; in others those of allocations only. A shader that does not
-// compile, and an allocation refused for want of memory, are statuses and not counted.
+// error in a debug context; in others only what is pending when something is allocated. A
+// shader that does not compile, and an allocation refused for want of memory, are statuses
+// and not counted.
 FG_API int fg_gl_error_count(const fg_device *dev);
 FG_API const char *fg_gl_renderer(const fg_device *dev);
 FG_API const char *fg_gl_version(const fg_device *dev);
