@@ -144,13 +144,26 @@ static fg_status wreck_state(const fg_run *r, void *user)
     glEnable(GL_RASTERIZER_DISCARD);
     glDepthFunc(GL_NEVER);
     glDepthMask(GL_FALSE);
-    glDepthRange(0.9, 0.1);
+    glDepthRange(0.25, 0.3);
+    glFrontFace(GL_CW);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_POINT);
     glViewport(3, 3, 1, 1);
     glBindVertexArray(0);
     return FG_OK;
+}
+
+static fg_status check_and_draw(const fg_run *run, void *user)
+{
+    // What a picture does not show.
+    GLint front = 0, program = -1;
+    glGetIntegerv(GL_FRONT_FACE, &front);
+    glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+    assert_int_equal(front, GL_CCW);
+    assert_int_equal(program, 0);
+    assert_true(glIsEnabled(GL_FRAMEBUFFER_SRGB));
+    return draw_cells(run, user);
 }
 
 static void pass_inherits_no_state(void **state)
@@ -165,7 +178,7 @@ static void pass_inherits_no_state(void **state)
         { .name = "wreck", .run = wreck_state, .effect = FG_EFFECT_EXTERNAL },
         { .name = "draw",
           .writes = { { draw.to, .load = FG_LOAD_DISCARD }, { depth, FG_USE_DEPTH } },
-          .run = draw_cells,
+          .run = check_and_draw,
           .user = &draw },
     };
     fg_passes(g, passes, FG_COUNT(passes));
@@ -537,12 +550,23 @@ static uint32_t host_texture(void)
     return texture;
 }
 
-static void imported_texture_of_an_old_name_is_drawn_to_once_forgotten(void **state)
+static int framebuffers_deleted;
+static PFNGLDELETEFRAMEBUFFERSPROC real_delete;
+
+static void GLAPIENTRY counting_delete(GLsizei n, const GLuint *names)
+{
+    framebuffers_deleted += n;
+    real_delete(n, names);
+}
+
+// Names come again on some drivers: a framebuffer that outlives its texture would be found.
+static void forgotten_import_takes_its_framebuffer_along(void **state)
 {
     fixture *f = *state;
     float got[W * H];
+    glDeleteFramebuffers(0, NULL); // resolves the entry point
     fg_graph *g = open_graph(f, 0, 0);
-    for (int round = 0; round < 3; ++round) { // the same name each time, on most drivers
+    for (int round = 0; round < 3; ++round) {
         pass draw = { 0 };
         const uint32_t texture = host_texture();
         begin(g);
@@ -559,7 +583,12 @@ static void imported_texture_of_an_old_name_is_drawn_to_once_forgotten(void **st
         read_floats(texture, got, W * H);
         for (int i = 0; i < W * H; ++i)
             assert_true(got[i] == cell(i));
+        real_delete = epoxy_glDeleteFramebuffers;
+        epoxy_glDeleteFramebuffers = counting_delete;
+        framebuffers_deleted = 0;
         fg_gl_forget_texture(f->device, texture);
+        epoxy_glDeleteFramebuffers = real_delete;
+        assert_int_equal(framebuffers_deleted, 1);
         glDeleteTextures(1, &texture);
     }
     fg_graph_destroy(g);
@@ -616,7 +645,7 @@ int main(void)
         TEST(image_of_an_array_has_all_layers),
         TEST(shadow_filter_lights_what_is_nearer),
         TEST(history_carries_a_count_from_frame_to_frame),
-        TEST(imported_texture_of_an_old_name_is_drawn_to_once_forgotten),
+        TEST(forgotten_import_takes_its_framebuffer_along),
         TEST(lost_context_ends_the_frame_and_all_that_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
