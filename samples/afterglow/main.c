@@ -4,7 +4,7 @@
 #include <string.h>
 
 static const command *const commands[] = {
-    &command_render, &command_sequence, &command_reference, &command_compare,
+    &command_render, &command_sequence, &command_reference, &command_compare, &command_report,
     &command_graph,  &command_plugins,  &command_scenes,    &command_info,
 };
 

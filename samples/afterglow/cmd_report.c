@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "report.h"
+
+#include "file.h"
+
+#include <string.h>
+
+static int check(cli *c, const options *o)
+{
+    static const char *const folders[] = { "images", "graphs", "plots" };
+    char path[4096];
+    if (o->budget && strcmp(o->budget, "quick") && strcmp(o->budget, "full"))
+        return cli_fail(c, EXIT_USAGE, "--budget: is '%s', must be quick or full", o->budget);
+    if (o->merge && !o->operand_count)
+        return cli_fail(c, EXIT_USAGE, "--merge: the folders to join are missing");
+    int code = host_check_folder(c, o);
+    for (int i = 0; i < FG_COUNT(folders) && code == EXIT_DONE; ++i) {
+        snprintf(path, sizeof path, "%s/%s", o->output, folders[i]);
+        code = cli_status(c, file_make_folder(&c->log, path));
+    }
+    return code;
+}
+
+static int run(cli *c, const options *o)
+{
+    cJSON *doc = NULL;
+    int code = check(c, o);
+    if (code == EXIT_DONE)
+        code = o->merge ? report_merge(c, o, &doc) : report_measure(c, o, &doc);
+    if (code == EXIT_DONE)
+        code = report_write(c, o->output, doc);
+    if (code == EXIT_DONE)
+        printf("%s/report.html\n", o->output);
+    cJSON_Delete(doc);
+    return code;
+}
+
+const command command_report = {
+    .name = "report",
+    .operands = "[SCENE]...",
+    .summary = "Measures error against run time, for every plugin over its quality parameters",
+    .help =
+        "Scenes: cornell and atrium where none is named. Writes report.html (one self-contained "
+        "page),\n"
+        "report.json, report.csv, plots/, images/ and graphs/ to the folder that -o names.\n"
+        "Truths: path1, one indirect bounce path-traced, and path1_unshadowed, the same with "
+        "nothing\n"
+        "hidden along a bounce; compared is the indirect light of the third frame at time 0. "
+        "Times:\n"
+        "whole frames of the running animation, settings in turns, each frame waited for.\n"
+        "quick: 256x256, each quality parameter alone over its cheapest values. full: 1024x1024, "
+        "all\n"
+        "combinations of quality parameters (beyond 200: each alone). --set fixes a parameter.\n"
+        "report --merge DIR... -o DIR joins what --shard I/N runs have written.",
+    .option_names = OPTIONS_SCENE OPTIONS_GPU
+    " --gi --set --size --seed --budget --spp --shard --merge --output ",
+    .max_operands = -1,
+    .run = run,
+};

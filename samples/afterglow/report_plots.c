@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+#include "report.h"
+
+#include "file.h"
+
+#include <errno.h>
+#include <math.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+// Colours that tell apart for most eyes.
+static const char *const palette[] = { "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                                       "#56b4e9", "#7f3c8d", "#a5aa00", "#666666", "#00429d" };
+
+// ---- programs -----------------------------------------------------------------------------------
+
+// Runs a program without output. 0, ENOENT where there is no such program, -1 where it failed.
+static int run_program(const char *const *argv)
+{
+    posix_spawn_file_actions_t actions;
+    pid_t child;
+    int state;
+    if (posix_spawn_file_actions_init(&actions))
+        return -1;
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", 0, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", 1, 0);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
+    const int error = posix_spawnp(&child, argv[0], &actions, NULL, (char *const *) argv, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error)
+        return error == ENOENT ? ENOENT : -1;
+    while (waitpid(child, &state, 0) < 0)
+        if (errno != EINTR)
+            return -1;
+    return WIFEXITED(state) && WEXITSTATUS(state) == 0 ? 0 : -1;
+}
+
+static void add_note(cJSON *doc, const char *program, int result, const char *lacking)
+{
+    char note[160];
+    snprintf(note, sizeof note, "%s %s: %s", program,
+             result == ENOENT ? "is not installed" : "failed", lacking);
+    const cJSON *other;
+    cJSON_ArrayForEach(other, cJSON_GetObjectItem(doc, "notes"))
+    {
+        if (cJSON_IsString(other) && !strcmp(other->valuestring, note))
+            return;
+    }
+    cJSON_AddItemToArray(cJSON_GetObjectItem(doc, "notes"), cJSON_CreateString(note));
+    cli_warn("report: %s", note);
+}
+
+// ---- gnuplot scripts ----------------------------------------------------------------------------
+
+// Text in double quotes of a script.
+static void quoted(FILE *f, const char *text)
+{
+    fputc('"', f);
+    for (; *text; ++text)
+        fputc(*text == '"' || *text == '\\' || *text == '`' || (unsigned char) *text < 0x20 ? '\''
+                                                                                            : *text,
+              f);
+    fputc('"', f);
+}
+
+static double frame_median(const cJSON *record)
+{
+    return json_number(cJSON_GetObjectItem(record, "frame_ms"), "median");
+}
+
+static bool of_scene(const cJSON *record, const char *scene)
+{
+    return !strcmp(json_text(record, "scene"), scene);
+}
+
+// Plugins of the scene in the order of records.
+enum { MAX_PLUGINS = 64 };
+static int list_plugins(const cJSON *doc, const char *scene, const char *names[MAX_PLUGINS])
+{
+    const cJSON *record;
+    int count = 0;
+    cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
+    {
+        const char *name = json_text(record, "plugin");
+        int i = 0;
+        while (i < count && strcmp(names[i], name))
+            ++i;
+        if (of_scene(record, scene) && i == count && count < MAX_PLUGINS)
+            names[count++] = name;
+    }
+    return count;
+}
+
+typedef struct point {
+    double ms, error;
+    const char *label;
+} point;
+
+static int compare_points(const void *a, const void *b)
+{
+    const double x = ((const point *) a)->ms, y = ((const point *) b)->ms;
+    return (x > y) - (x < y);
+}
+
+// Points of a plugin, or of the Pareto front where `plugin` is NULL, fastest first. free() them.
+static point *collect(const cJSON *doc, const char *scene, const char *plugin, int truth,
+                      int *count)
+{
+    const cJSON *records = cJSON_GetObjectItem(doc, "records"), *record;
+    point *points = calloc((size_t) cJSON_GetArraySize(records) + 1, sizeof *points);
+    *count = 0;
+    cJSON_ArrayForEach(record, records)
+    {
+        const point p = { frame_median(record), report_error_of(record, truth),
+                          json_text(record, "label") };
+        const bool wanted = plugin ? !strcmp(json_text(record, "plugin"), plugin)
+                                   : report_on_front(doc, record, truth);
+        if (points && of_scene(record, scene) && wanted && p.ms > 0 && p.error > 0)
+            points[(*count)++] = p;
+    }
+    if (points)
+        qsort(points, (size_t) *count, sizeof *points, compare_points);
+    return points;
+}
+
+static fg_status write_block(FILE *f, const char *name, const cJSON *doc, const char *scene,
+                             const char *plugin, int truth)
+{
+    int count;
+    point *points = collect(doc, scene, plugin, truth, &count);
+    if (!points)
+        return FG_ERR_MEMORY;
+    fprintf(f, "$%s << END_OF_DATA\n", name);
+    for (int i = 0; i < count; ++i) {
+        fprintf(f, "%.9g %.9g ", points[i].ms, points[i].error);
+        quoted(f, points[i].label);
+        fputc('\n', f);
+    }
+    if (!count)
+        fprintf(f, "NaN NaN \"\"\n");
+    fprintf(f, "END_OF_DATA\n");
+    free(points);
+    return FG_OK;
+}
+
+static void write_ranges(FILE *f, const cJSON *doc, const char *scene, int truth, double noise)
+{
+    const cJSON *record;
+    double low[2] = { INFINITY, INFINITY }, high[2] = { 0, 0 };
+    cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
+    {
+        const double v[2] = { frame_median(record), report_error_of(record, truth) };
+        if (!of_scene(record, scene) || !(v[0] > 0) || !(v[1] > 0))
+            continue;
+        for (int i = 0; i < 2; ++i) {
+            low[i] = fmin(low[i], v[i]);
+            high[i] = fmax(high[i], v[i]);
+        }
+    }
+    if (noise > 0)
+        low[1] = fmin(low[1], noise);
+    for (int i = 0; i < 2; ++i)
+        if (high[i] > 0)
+            fprintf(f, "set %crange [%.6g:%.6g]\n", "xy"[i], low[i] / 1.5, high[i] * 1.5);
+}
+
+static void write_head(FILE *f, const char *svg, int height)
+{
+    fprintf(f,
+            "set terminal svg size 860,%d font 'Helvetica,13' noenhanced background '#ffffff'\n"
+            "set output ",
+            height);
+    quoted(f, svg);
+    fprintf(f, "\nset border lc rgb '#444444'\nset grid lc rgb '#dddddd' lw 1\n"
+               "set tics textcolor rgb '#222222'\n");
+}
+
+static double noise_of(const cJSON *scene, int truth)
+{
+    const cJSON *entry = cJSON_GetArrayItem(cJSON_GetObjectItem(scene, "references"), truth);
+    return json_number(entry, "noise") / json_number(entry, "rms");
+}
+
+static fg_status write_front(FILE *f, const cJSON *doc, const cJSON *scene, int truth,
+                             const char *svg)
+{
+    const char *name = json_text(scene, "name"), *plugins[MAX_PLUGINS];
+    const int count = list_plugins(doc, name, plugins);
+    const double noise = noise_of(scene, truth);
+    fg_status status = FG_OK;
+    write_head(f, svg, 480);
+    fprintf(f, "set logscale xy\nset key outside right top\nset xlabel 'frame, median ms'\n"
+               "set ylabel 'relative RMSE of indirect light'\n");
+    write_ranges(f, doc, name, truth, noise);
+    for (int i = 0; i < count && status == FG_OK; ++i) {
+        char block[16];
+        snprintf(block, sizeof block, "p%d", i);
+        status = write_block(f, block, doc, name, plugins[i], truth);
+    }
+    if (status == FG_OK)
+        status = write_block(f, "front", doc, name, NULL, truth);
+    fprintf(f, "plot $front using 1:2 with steps lc rgb '#999999' lw 5 title 'Pareto front'");
+    for (int i = 0; i < count; ++i) {
+        fprintf(f, ", $p%d using 1:2 with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '%s' title ", i,
+                palette[i % FG_COUNT(palette)]);
+        quoted(f, plugins[i]);
+    }
+    if (noise > 0)
+        fprintf(f, ", %.6g with lines dt 2 lc rgb '#555555' title 'noise of the truth'", noise);
+    fprintf(f, ", $front using 1:2:3 with labels left offset 0.7,0.7 font ',10' notitle\n");
+    return status;
+}
+
+// ---- bars: passes of every record
+// -----------------------------------------------------------------
+
+enum { MAX_STACK = 14 };
+typedef struct stack {
+    const char *name;
+    double total;
+} stack;
+
+static int compare_stacks(const void *a, const void *b)
+{
+    const double x = ((const stack *) a)->total, y = ((const stack *) b)->total;
+    return (x < y) - (x > y);
+}
+
+// The passes that take most, most first.
+static int list_passes(const cJSON *doc, const char *scene, stack *out, int max)
+{
+    const cJSON *record, *pass;
+    int count = 0;
+    cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
+    {
+        if (!of_scene(record, scene))
+            continue;
+        cJSON_ArrayForEach(pass, cJSON_GetObjectItem(record, "passes"))
+        {
+            const char *name = json_text(pass, "name");
+            const double ms = json_number(pass, "gpu_ms");
+            int i = 0;
+            while (i < count && strcmp(out[i].name, name))
+                ++i;
+            if (i == count && count < max)
+                out[count++] = (stack){ name, 0 };
+            if (i < count && ms > 0)
+                out[i].total += ms;
+        }
+    }
+    qsort(out, (size_t) count, sizeof *out, compare_stacks);
+    return count < MAX_STACK ? count : MAX_STACK;
+}
+
+static double pass_ms(const cJSON *record, const char *name)
+{
+    const cJSON *pass;
+    cJSON_ArrayForEach(pass, cJSON_GetObjectItem(record, "passes"))
+    {
+        if (!strcmp(json_text(pass, "name"), name)) {
+            const double ms = json_number(pass, "gpu_ms");
+            return ms > 0 ? ms : 0;
+        }
+    }
+    return 0;
+}
+
+static void write_bar(FILE *f, const cJSON *record, const stack *passes, int count)
+{
+    char label[160];
+    double rest = frame_median(record);
+    snprintf(label, sizeof label, "%s %s", json_text(record, "plugin"), json_text(record, "label"));
+    quoted(f, label);
+    for (int i = 0; i < count; ++i) {
+        const double ms = pass_ms(record, passes[i].name);
+        fprintf(f, " %.9g", ms);
+        rest -= ms;
+    }
+    fprintf(f, " %.9g\n", rest > 0 ? rest : 0);
+}
+
+static fg_status write_bars(FILE *f, const cJSON *doc, const cJSON *scene, const char *svg)
+{
+    stack passes[TIMING_MAX_PASSES];
+    const char *name = json_text(scene, "name");
+    const int count = list_passes(doc, name, passes, TIMING_MAX_PASSES);
+    const cJSON *record;
+    write_head(f, svg, 560);
+    fprintf(f, "$bars << END_OF_DATA\n");
+    cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
+    {
+        if (of_scene(record, name))
+            write_bar(f, record, passes, count);
+    }
+    fprintf(
+        f,
+        "END_OF_DATA\nset style data histograms\nset style histogram rowstacked\n"
+        "set boxwidth 0.75\nset style fill solid 0.9 noborder\nset key outside right top invert\n"
+        "set ylabel 'ms of a frame'\nset yrange [0:*]\nset xtics rotate by -40 font ',10'\n"
+        "set rmargin 24\nplot ");
+    for (int i = 0; i < count; ++i) {
+        fprintf(f, "$bars using %d%s lc rgb '%s' title ", i + 2, i ? "" : ":xtic(1)",
+                palette[i % FG_COUNT(palette)]);
+        quoted(f, passes[i].name);
+        fprintf(f, ", ");
+    }
+    fprintf(f, "$bars using %d%s lc rgb '#cccccc' title 'outside GPU timers'\n", count + 2,
+            count ? "" : ":xtic(1)");
+    return FG_OK;
+}
+
+// ---- files
+// ----------------------------------------------------------------------------------------
+
+// Writes the script by `truth` (-1: bars) and runs gnuplot on it; the SVG is what tells success.
+static fg_status plot(const fg_log *log, const char *folder, cJSON *doc, const cJSON *scene,
+                      int truth)
+{
+    char stem[64], script[4096], svg[4096];
+    file out;
+    report_file_name(stem, sizeof stem, json_text(scene, "name"));
+    const char *what = truth < 0 ? "passes" : truth_names[truth];
+    snprintf(script, sizeof script, "%s/plots/%s_%s.gp", folder, stem, what);
+    snprintf(svg, sizeof svg, "%s/plots/%s_%s.svg", folder, stem, what);
+    unlink(svg); // one from an earlier run must not stand for this
+    fg_status status = file_begin(log, script, &out);
+    if (status != FG_OK)
+        return status;
+    status = truth < 0 ? write_bars(out.stream, doc, scene, svg)
+                       : write_front(out.stream, doc, scene, truth, svg);
+    const fg_status written = file_end(log, &out, status == FG_OK);
+    if (status != FG_OK || written != FG_OK)
+        return status != FG_OK ? status : written;
+    const char *const argv[] = { "gnuplot", script, NULL };
+    const int result = run_program(argv);
+    if (result) {
+        unlink(svg);
+        add_note(doc, "gnuplot", result, "no plots");
+    }
+    return FG_OK;
+}
+
+static void draw_graphs(const char *folder, cJSON *doc, cJSON *scene)
+{
+    cJSON *graph;
+    cJSON_ArrayForEach(graph, cJSON_GetObjectItem(scene, "graphs"))
+    {
+        char dot[4096], svg[4096 + 8];
+        snprintf(dot, sizeof dot, "%s/%s", folder, json_text(graph, "dot"));
+        snprintf(svg, sizeof svg, "%s.svg", dot);
+        unlink(svg);
+        const char *const argv[] = { "dot", "-Tsvg", dot, "-o", svg, NULL };
+        const int result = run_program(argv);
+        if (result) {
+            unlink(svg);
+            add_note(doc, "dot", result, "no pictures of graphs");
+        }
+    }
+}
+
+fg_status report_plots(const fg_log *log, const char *folder, cJSON *doc)
+{
+    cJSON *scene;
+    fg_status status = FG_OK;
+    cJSON_ArrayForEach(scene, cJSON_GetObjectItem(doc, "scenes"))
+    {
+        for (int truth = -1; truth < REPORT_TRUTHS && status == FG_OK; ++truth)
+            status = plot(log, folder, doc, scene, truth);
+        draw_graphs(folder, doc, scene);
+    }
+    return status;
+}
