@@ -40,17 +40,16 @@ const command command_report = {
     .operands = "[SCENE]...",
     .summary = "Measures error against run time, for every plugin over its quality parameters",
     .help =
-        "Scenes: cornell and atrium where none is named. Writes report.html (one self-contained "
-        "page),\n"
-        "report.json, report.csv, plots/, images/ and graphs/ to the folder that -o names.\n"
-        "Truths: path1, one indirect bounce path-traced, and path1_unshadowed, the same with "
-        "nothing\n"
-        "hidden along a bounce; compared is the indirect light of the third frame at time 0. "
-        "Times:\n"
-        "whole frames of the running animation, settings in turns, each frame waited for.\n"
-        "quick: 256x256, each quality parameter alone over its cheapest values. full: 1024x1024, "
-        "all\n"
-        "combinations of quality parameters (beyond 200: each alone). --set fixes a parameter.\n"
+        "Scenes: cornell and atrium where none is named. Writes report.html (one self-contained\n"
+        "page), report.json, report.csv, plots/, images/ and graphs/ to the folder that -o names.\n"
+        "Truths: path1, one indirect bounce path-traced, and path1_unshadowed, the same with\n"
+        "nothing hidden along a bounce. Compared is the indirect light at time 0, of the first\n"
+        "frame (quick) or the eighth (full). Times: whole frames of the running animation, "
+        "settings\n"
+        "in turns, each frame waited for; slow ones fewer times.\n"
+        "quick: 256x256, each quality parameter alone over its cheapest values. full: 1024x1024,\n"
+        "all combinations of quality parameters (beyond 200: each alone). --set fixes a "
+        "parameter.\n"
         "report --merge DIR... -o DIR joins what --shard I/N runs have written.",
     .option_names = OPTIONS_SCENE OPTIONS_GPU
     " --gi --set --size --seed --budget --spp --shard --merge --output ",

@@ -32,9 +32,19 @@ void timing_finish(timing *t)
 {
     free(t->frame);
     free(t->cpu);
-    for (int i = 0; i < t->pass_count; ++i)
+    for (int i = 0; i < t->pass_count; ++i) {
         free(t->gpu[i]);
+        free(t->call[i]);
+    }
     *t = (timing){ 0 };
+}
+
+static double *nan_row(int capacity)
+{
+    double *row = malloc((size_t) capacity * sizeof *row);
+    for (int k = 0; row && k < capacity; ++k)
+        row[k] = NAN;
+    return row;
 }
 
 // The pass's row, made when it is new; -1 where there is no room.
@@ -42,17 +52,14 @@ static int find_pass(timing *t, const char *name)
 {
     for (int i = 0; i < t->pass_count; ++i)
         if (!strncmp(t->pass[i], name, sizeof t->pass[i] - 1))
-            return i;
+            return t->gpu[i] && t->call[i] ? i : -1;
     if (t->pass_count == TIMING_MAX_PASSES)
         return -1;
-    double *row = malloc((size_t) t->capacity * sizeof *row);
-    if (!row)
-        return -1;
-    for (int k = 0; k < t->capacity; ++k)
-        row[k] = NAN;
+    t->gpu[t->pass_count] = nan_row(t->capacity);
+    t->call[t->pass_count] = nan_row(t->capacity);
     snprintf(t->pass[t->pass_count], sizeof t->pass[0], "%s", name);
-    t->gpu[t->pass_count] = row;
-    return t->pass_count++;
+    ++t->pass_count; // timing_finish() frees what was had of a row
+    return t->gpu[t->pass_count - 1] && t->call[t->pass_count - 1] ? t->pass_count - 1 : -1;
 }
 
 static void take_passes(timing *t, const fg_graph *g)
@@ -62,6 +69,8 @@ static void take_passes(timing *t, const fg_graph *g)
         const int row = find_pass(t, pass.pass);
         if (row >= 0 && pass.gpu_ms >= 0)
             t->gpu[row][t->count] = pass.gpu_ms;
+        if (row >= 0)
+            t->call[row][t->count] = pass.cpu_ms;
     }
 }
 
@@ -161,7 +170,8 @@ static cJSON *passes_json(const timing *t)
     for (int i = 0; i < t->pass_count; ++i) {
         cJSON *pass = cJSON_CreateObject();
         cJSON_AddStringToObject(pass, "name", t->pass[i]);
-        add_number(pass, "gpu_ms", timing_quantile(t->gpu[i], t->count, 0.5));
+        add_number(pass, "gpu_ms", timing_quantile(t->gpu[i], t->gpu[i] ? t->count : 0, 0.5));
+        add_number(pass, "cpu_ms", timing_quantile(t->call[i], t->call[i] ? t->count : 0, 0.5));
         cJSON_AddItemToArray(passes, pass);
     }
     return passes;

@@ -15,7 +15,8 @@ typedef struct timing {
     double *cpu;   // [capacity] of renderer_frame() alone
     int pass_count;
     char pass[TIMING_MAX_PASSES][64];
-    double *gpu[TIMING_MAX_PASSES]; // [capacity]; NAN where the frame had no such pass
+    double *gpu[TIMING_MAX_PASSES];  // [capacity] by GPU timers; NAN where there was no such pass
+    double *call[TIMING_MAX_PASSES]; // [capacity] in the pass's callback; likewise
 } timing;
 
 FG_NODISCARD fg_status timing_create(int capacity, timing *out);

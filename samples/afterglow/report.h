@@ -12,7 +12,8 @@
 //                   "references": [ { "name": "path1", "spp", "noise", "rms", "mean", "image" } ],
 //                   "not_served": [ { "plugin", "lacks" } ],
 //                   "graphs": [ { "plugin", "dot" } ] } ],
-//     "records": [ run records with "index", "label", "errors": [one per reference],
+//     "records": [ run records with "index", "label", "errors": [one per reference, with "noise"
+//     and "rmse_rms_corrected"],
 //                  "images": { "result", "error": [one per reference] } } ] }
 //
 // File names in it are relative to the report's folder.
@@ -39,14 +40,16 @@ void jobs_finish(job_list *jobs);
 enum { REPORT_TRUTHS = 2 };
 typedef struct truths {
     image picture[REPORT_TRUTHS];
+    double noise[REPORT_TRUTHS]; // RMS of what noise is left in them
+    double rms[REPORT_TRUTHS];
     double exposure;             // what pictures are multiplied by to be looked at
     double scale[REPORT_TRUTHS]; // full colour of error maps
 } truths;
 extern const char *const truth_names[REPORT_TRUTHS]; // "path1", "path1_unshadowed"
 
 // Renders them, writes their pictures and adds them to `scene_json`. Exit codes from here on.
-int truths_render(host *h, const char *folder, cJSON *scene_json, int width, int height, int spp,
-                  truths *out);
+int truths_render(host *h, const char *folder, cJSON *scene_json, int width, int height,
+                  const int spp[REPORT_TRUTHS], truths *out);
 void truths_finish(truths *t);
 
 int report_measure(cli *c, const options *o, cJSON **doc);
@@ -66,6 +69,10 @@ double json_number(const cJSON *object, const char *name);
 void report_file_name(char *out, size_t size, const char *text);
 // Whether no other record of the scene is both faster and nearer to truth `truth`.
 bool report_on_front(const cJSON *doc, const cJSON *record, int truth);
-double report_error_of(const cJSON *record, int truth); // rmse_rms
+// Relative RMSE against the truth with the truth's own noise taken out; NAN where that is all.
+double report_error_of(const cJSON *record, int truth);
+// Time of a pass: its GPU timer's, or its callback's where that is longer, as on a software device,
+// which runs compute there.
+double report_pass_ms(const cJSON *pass);
 
 #endif // REPORT_H

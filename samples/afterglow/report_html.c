@@ -68,7 +68,7 @@ static void write_row(const page *p, const cJSON *record)
     number_cell(p->f, json_number(frame, "min"), "%.2f");
     cJSON_ArrayForEach(error, cJSON_GetObjectItem(record, "errors"))
     {
-        number_cell(p->f, json_number(error, "rmse_rms"), "%.4f");
+        number_cell(p->f, json_number(error, "rmse_rms_corrected"), "%.4f");
         number_cell(p->f, json_number(error, "energy_ratio"), "%.3f");
     }
     error = cJSON_GetObjectItem(record, "error");
@@ -104,7 +104,9 @@ static void write_table(const page *p)
     }
     fprintf(p->f,
             "</tbody></table></div>\n<p class=\"quiet\">Marked: on the Pareto front against %s. "
-            "relMSE and SMAPE are against it too. Click a heading to sort.</p>\n",
+            "relMSE and SMAPE are against it too. The noise of the truth is taken out of relative "
+            "RMSE: the square root of MSE less the truth's own variance. Click a heading to "
+            "sort.</p>\n",
             truth_names[0]);
 }
 
@@ -133,8 +135,10 @@ static fg_status write_plots(const page *p)
                        "The same against one bounce in which nothing hides anything: what is left "
                        "is the error of sampling, not of leaving indirect visibility out.");
     if (status == FG_OK)
-        status = write_plot(
-            p, "passes", "Where a frame's time goes: GPU timers by pass, and what no timer saw.");
+        status =
+            write_plot(p, "passes",
+                       "Where a frame's time goes: each pass by its GPU timer, or by the time in "
+                       "its callback where that is longer (a software device runs compute there).");
     return status;
 }
 
@@ -191,7 +195,7 @@ static fg_status write_card(const page *p, const cJSON *record)
                 write_image(p, cJSON_IsString(map) ? map->valuestring : "", "signed error map");
         fprintf(p->f,
                 "<span>error against %s: relative RMSE %.4f, energy ratio %.3f</span></div>\n",
-                json_text(error, "reference"), json_number(error, "rmse_rms"),
+                json_text(error, "reference"), json_number(error, "rmse_rms_corrected"),
                 json_number(error, "energy_ratio"));
     }
     fputs("</div></figure>\n", p->f);

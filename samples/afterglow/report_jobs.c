@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_PRODUCT = 200, QUICK_VALUES = 4, QUICK_SETTINGS = 7 };
+// Quick: so many values of a parameter, and so many settings of a scene, shared by the plugins.
+enum { MAX_PRODUCT = 200, QUICK_VALUES = 4, QUICK_SETTINGS = 16, QUICK_LEAST = 3, QUICK_MOST = 7 };
 
 void jobs_finish(job_list *list)
 {
@@ -148,7 +149,8 @@ static fg_status product(const options *o, const setting *base, int total, job_l
     return status;
 }
 
-static fg_status add_plugin(const options *o, const setting *base, bool full, job_list *out)
+static fg_status add_plugin(const options *o, const setting *base, bool full, int limit,
+                            job_list *out)
 {
     enum { ALL = 1 << 20 };
     int total = 1;
@@ -160,7 +162,7 @@ static fg_status add_plugin(const options *o, const setting *base, bool full, jo
         total *= length ? length : 1;
     }
     if (!full)
-        return one_at_a_time(o, base, QUICK_VALUES, QUICK_SETTINGS, out);
+        return one_at_a_time(o, base, QUICK_VALUES, limit, out);
     if (total <= MAX_PRODUCT)
         return product(o, base, total, out);
     return one_at_a_time(o, base, ALL, ALL, out);
@@ -169,11 +171,13 @@ static fg_status add_plugin(const options *o, const setting *base, bool full, jo
 fg_status jobs_build(const options *o, const setting *plugins, int count, bool full, job_list *out)
 {
     const setting none = { 0 };
+    int limit = QUICK_SETTINGS / (count > 0 ? count : 1);
+    limit = limit < QUICK_LEAST ? QUICK_LEAST : limit > QUICK_MOST ? QUICK_MOST : limit;
     *out = (job_list){ 0 };
     fg_status status = append(out, &none, &none);
     for (int i = 0; i < count && status == FG_OK; ++i)
         if (plugins[i].plugin)
-            status = add_plugin(o, &plugins[i], full, out);
+            status = add_plugin(o, &plugins[i], full, limit, out);
     if (status != FG_OK)
         jobs_finish(out);
     return status;

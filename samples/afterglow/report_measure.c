@@ -8,13 +8,16 @@
 #include <string.h>
 
 typedef struct budget {
-    int size, spp;
-    int visits, frames; // of the timing loop: every setting in turn, so often
-    double slow_ms;     // settings slower than this are timed once a visit
-    double too_slow_ms; // and slower than this in the first visit only
+    int size;
+    int spp_small, spp_large; // of the truth, in scenes below and from SMALL triangles on
+    int error_frames;         // the picture that is compared is the n-th at time 0
+    int visits, frames;       // of the timing loop: every setting in turn, so often
+    double slow_ms;           // settings slower than this are timed once a visit
+    double too_slow_ms;       // and slower than this in the first visit only
 } budget;
-static const budget quick_budget = { 256, 64, 3, 3, 400, 1500 };
-static const budget full_budget = { 1024, 1024, 5, 5, 2000, 60000 };
+enum { SMALL = 1000 };
+static const budget quick_budget = { 256, 512, 64, 1, 3, 3, 300, 1000 };
+static const budget full_budget = { 1024, 4096, 1024, 8, 5, 5, 2000, 60000 };
 
 typedef struct measure {
     host h;
@@ -23,8 +26,9 @@ typedef struct measure {
     int width, height;
     cJSON *doc, *scene; // the document, and the entry of the scene at hand
     const job_list *jobs;
-    timing *timings; // one a job
-    cJSON **records; // one a job; NULL: not served, or another shard's
+    timing *timings;  // one a job
+    double *estimate; // one a job: ms of the last frame of the error's
+    cJSON **records;  // one a job; NULL: not served, or another shard's
     int scene_number;
 } measure;
 
@@ -64,6 +68,18 @@ static fg_status write_images(measure *m, image *result, const truths *t, int in
     return status == FG_OK ? image_write(&m->h.c->log, path, result, IMAGE_LIGHT) : status;
 }
 
+// The noise of the truth is independent of the result: their squares add, and can be taken apart.
+static cJSON *error_json(const truths *t, int truth, const metrics *e)
+{
+    const double square = e->rmse * e->rmse - t->noise[truth] * t->noise[truth];
+    const double corrected = square > 0 ? sqrt(square) / t->rms[truth] : (double) NAN;
+    cJSON *json = record_error(truth_names[truth], e);
+    cJSON_AddNumberToObject(json, "noise", t->noise[truth]);
+    cJSON_AddItemToObject(json, "rmse_rms_corrected",
+                          isfinite(corrected) ? cJSON_CreateNumber(corrected) : cJSON_CreateNull());
+    return json;
+}
+
 // Errors against every truth, and the pictures.
 static fg_status add_error(measure *m, image *result, const truths *t, int index, cJSON *record)
 {
@@ -73,7 +89,7 @@ static fg_status add_error(measure *m, image *result, const truths *t, int index
         metrics e;
         status = metrics_compare(&m->h.c->log, result, &t->picture[i], &e);
         if (status == FG_OK)
-            cJSON_AddItemToArray(errors, record_error(truth_names[i], &e));
+            cJSON_AddItemToArray(errors, error_json(t, i, &e));
     }
     if (status == FG_OK)
         cJSON_AddItemToObject(record, "error", cJSON_Duplicate(cJSON_GetArrayItem(errors, 0), 1));
@@ -100,11 +116,21 @@ static fg_status write_graph(measure *m, renderer *r, const job *j)
     return status;
 }
 
-// The third frame at time 0 is what is compared: what a technique keeps from frame to frame is
-// there by then.
+static fg_status run_error_frames(measure *m, renderer *r, int k)
+{
+    fg_status status = host_switch(&m->h, r, &m->jobs->jobs[k].s);
+    for (int i = 0; i < m->budget->error_frames && status == FG_OK; ++i) {
+        const double start = now_ms();
+        status = renderer_frame(r, 0);
+        if (status == FG_OK)
+            status = fg_gl_finish(m->h.device);
+        m->estimate[k] = now_ms() - start;
+    }
+    return status;
+}
+
 static fg_status measure_error(measure *m, const truths *t)
 {
-    enum { FRAMES = 3 };
     const setting none = { 0 };
     renderer *r = NULL;
     renderer_desc desc = host_renderer_desc(&m->h, &none, m->width, m->height);
@@ -116,9 +142,10 @@ static fg_status measure_error(measure *m, const truths *t)
         cli_progress("errors", (double) k / m->jobs->count);
         if (!m->records[k])
             continue;
-        status = host_switch(&m->h, r, &j->s);
-        for (int i = 0; i < FRAMES && status == FG_OK; ++i)
-            status = renderer_frame(r, 0);
+        // By way of nothing, so that no setting inherits what the one before has kept.
+        status = host_switch(&m->h, r, &none);
+        if (status == FG_OK)
+            status = run_error_frames(m, r, k);
         if (status == FG_OK)
             status = renderer_read(r, LAYER_INDIRECT, &result);
         if (status == FG_OK)
@@ -153,20 +180,18 @@ static void complete_record(measure *m, renderer *r, int k)
 static fg_status visit(measure *m, renderer *r, int k, int number)
 {
     timing *t = &m->timings[k];
-    const double last = t->count ? t->frame[t->count - 1] : 0;
-    const bool final = number + 1 == m->budget->visits;
-    fg_status status = FG_OK;
-    if (last > m->budget->too_slow_ms && !final)
+    const double last = t->count ? t->frame[t->count - 1] : m->estimate[k];
+    const bool slow = last > m->budget->slow_ms;
+    const bool once = m->estimate[k] > m->budget->too_slow_ms;
+    if (once && number)
         return FG_OK;
-    status = host_switch(&m->h, r, &m->jobs->jobs[k].s);
-    // A first frame alone: what creates and compiles is not to be timed. The last visit of what
-    // is too slow runs it too, for its counters and memory.
-    if (status == FG_OK)
+    fg_status status = host_switch(&m->h, r, &m->jobs->jobs[k].s);
+    // What creates and compiles is not to be timed; for the slow, the warm-up frame has to do.
+    if (status == FG_OK && !slow)
         status = renderer_frame(r, 0);
-    if (status == FG_OK && !(last > m->budget->too_slow_ms))
-        status =
-            timing_run(t, m->h.device, r, 0, last > m->budget->slow_ms ? 1 : m->budget->frames);
-    if (status == FG_OK && final)
+    if (status == FG_OK)
+        status = timing_run(t, m->h.device, r, 0, slow ? 1 : m->budget->frames);
+    if (status == FG_OK && (once || number + 1 == m->budget->visits))
         complete_record(m, r, k);
     return status;
 }
@@ -250,7 +275,11 @@ static int measure_scene(measure *m, const char *name)
     cJSON_AddNumberToObject(m->scene, "triangles", triangles);
     cJSON_AddArrayToObject(m->scene, "not_served");
     cJSON_AddArrayToObject(m->scene, "graphs");
-    const int spp = m->h.o->spp > 0 ? m->h.o->spp : m->budget->spp;
+    int spp[REPORT_TRUTHS];
+    spp[0] = triangles < SMALL ? m->budget->spp_small : m->budget->spp_large;
+    spp[1] = (spp[0] + 1) / 2; // a ray that nothing stops costs more
+    for (int i = 0; i < REPORT_TRUTHS && m->h.o->spp > 0; ++i)
+        spp[i] = m->h.o->spp;
     code = truths_render(&m->h, m->folder, m->scene, m->width, m->height, spp, &t);
     if (code == EXIT_DONE)
         code = cli_status(m->h.c, measure_jobs(m, &t));
@@ -265,6 +294,7 @@ static cJSON *new_document(const measure *m)
     cJSON_AddStringToObject(doc, "afterglow", AFTERGLOW_VERSION);
     cJSON_AddStringToObject(doc, "budget", m->budget == &full_budget ? "full" : "quick");
     cJSON_AddItemToObject(doc, "size", cJSON_CreateIntArray((int[]){ m->width, m->height }, 2));
+    cJSON_AddNumberToObject(doc, "error_frame", m->budget->error_frames - 1);
     cJSON_AddNumberToObject(doc, "seed", (double) o->seed);
     if (o->shards)
         cJSON_AddItemToObject(doc, "shard",
@@ -287,7 +317,8 @@ static int measure_scenes(measure *m, const job_list *jobs)
     m->jobs = jobs;
     m->timings = calloc((size_t) jobs->count, sizeof *m->timings);
     m->records = calloc((size_t) jobs->count, sizeof(cJSON *));
-    if (!m->timings || !m->records)
+    m->estimate = calloc((size_t) jobs->count, sizeof *m->estimate);
+    if (!m->timings || !m->records || !m->estimate)
         code = cli_status(m->h.c, FG_ERR_MEMORY);
     for (int i = 0; i < count && code == EXIT_DONE; ++i) {
         m->scene_number = i;
@@ -295,6 +326,7 @@ static int measure_scenes(measure *m, const job_list *jobs)
     }
     free(m->timings);
     free(m->records);
+    free(m->estimate);
     return code;
 }
 

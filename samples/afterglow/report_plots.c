@@ -243,7 +243,7 @@ static int list_passes(const cJSON *doc, const char *scene, stack *out, int max)
         cJSON_ArrayForEach(pass, cJSON_GetObjectItem(record, "passes"))
         {
             const char *name = json_text(pass, "name");
-            const double ms = json_number(pass, "gpu_ms");
+            const double ms = report_pass_ms(pass);
             int i = 0;
             while (i < count && strcmp(out[i].name, name))
                 ++i;
@@ -263,7 +263,7 @@ static double pass_ms(const cJSON *record, const char *name)
     cJSON_ArrayForEach(pass, cJSON_GetObjectItem(record, "passes"))
     {
         if (!strcmp(json_text(pass, "name"), name)) {
-            const double ms = json_number(pass, "gpu_ms");
+            const double ms = report_pass_ms(pass);
             return ms > 0 ? ms : 0;
         }
     }
@@ -309,7 +309,7 @@ static fg_status write_bars(FILE *f, const cJSON *doc, const cJSON *scene, const
         quoted(f, passes[i].name);
         fprintf(f, ", ");
     }
-    fprintf(f, "$bars using %d%s lc rgb '#cccccc' title 'outside GPU timers'\n", count + 2,
+    fprintf(f, "$bars using %d%s lc rgb '#cccccc' title 'outside passes'\n", count + 2,
             count ? "" : ":xtic(1)");
     return FG_OK;
 }

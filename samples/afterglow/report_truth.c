@@ -121,6 +121,7 @@ static fg_status add_truth(host *h, const char *folder, cJSON *list, int truth, 
     report_file_name(scene, sizeof scene, h->scene_name);
     snprintf(name, sizeof name, "images/%s_%s.png", scene, truth_names[truth]);
     snprintf(path, sizeof path, "%s/images/%s_%s.exr", folder, scene, truth_names[truth]);
+    t->rms[truth] = rms;
     t->scale[truth] = rms > 0 ? 0.5 * rms : 1;
     cJSON *entry = cJSON_CreateObject();
     cJSON_AddStringToObject(entry, "name", truth_names[truth]);
@@ -135,24 +136,23 @@ static fg_status add_truth(host *h, const char *folder, cJSON *list, int truth, 
     return write_picture(h, folder, name, &t->picture[truth], t->exposure);
 }
 
-int truths_render(host *h, const char *folder, cJSON *scene_json, int width, int height, int spp,
-                  truths *out)
+int truths_render(host *h, const char *folder, cJSON *scene_json, int width, int height,
+                  const int spp[REPORT_TRUTHS], truths *out)
 {
     const image size = { .width = width, .height = height };
     fg_status status = FG_OK;
     cJSON *list = cJSON_AddArrayToObject(scene_json, "references");
     *out = (truths){ 0 };
     for (int i = 0; i < REPORT_TRUTHS && status == FG_OK; ++i) {
-        double noise;
-        status = two_halves(h, &size, i, spp, &out->picture[i], &noise);
+        status = two_halves(h, &size, i, spp[i], &out->picture[i], &out->noise[i]);
         if (status != FG_OK)
             break;
         if (i == 0)
             out->exposure = choose_exposure(&out->picture[0]);
         status = add_truth(h, folder, list, i, out);
         cJSON *entry = cJSON_GetArrayItem(list, i);
-        cJSON_AddNumberToObject(entry, "spp", 2 * ((spp + 1) / 2));
-        cJSON_AddNumberToObject(entry, "noise", noise);
+        cJSON_AddNumberToObject(entry, "spp", 2 * ((spp[i] + 1) / 2));
+        cJSON_AddNumberToObject(entry, "noise", out->noise[i]);
     }
     cJSON_AddNumberToObject(scene_json, "exposure", out->exposure);
     return cli_status(h->c, status);

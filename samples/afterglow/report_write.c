@@ -32,7 +32,13 @@ void report_file_name(char *out, size_t size, const char *text)
 double report_error_of(const cJSON *record, int truth)
 {
     return json_number(cJSON_GetArrayItem(cJSON_GetObjectItem(record, "errors"), truth),
-                       "rmse_rms");
+                       "rmse_rms_corrected");
+}
+
+double report_pass_ms(const cJSON *pass)
+{
+    const double gpu = json_number(pass, "gpu_ms"), call = json_number(pass, "cpu_ms");
+    return gpu > call || isnan(call) ? gpu : call;
 }
 
 static double median_of(const cJSON *record)
