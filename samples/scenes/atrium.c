@@ -58,7 +58,7 @@ static void add_cameras(atrium *a)
 {
     kit_camera(&a->k, "court", (double[]){ -8.35, 1.75, -1.2 }, (double[]){ 3.0, 2.95, 1.4 },
                1.12f);
-    kit_camera(&a->k, "gallery", (double[]){ -8.5, 6.2, 6.8 }, (double[]){ 3.0, 5.6, 3.7 }, 1.10f);
+    kit_camera(&a->k, "gallery", (double[]){ -5.3, 6.2, 6.75 }, (double[]){ 4.5, 5.5, 4.3 }, 1.10f);
     kit_camera(&a->k, "aisle", (double[]){ -6.3, 1.7, 6.5 }, (double[]){ 4.0, 2.2, 5.4 }, 1.05f);
     kit_camera(&a->k, "above", (double[]){ -8.6, 13.0, -3.2 }, (double[]){ 1.2, 1.2, 1.4 }, 1.0f);
 }
