@@ -162,7 +162,6 @@ static void check_read(fg_graph *g, uint32_t pass, const io_rec *io, bool *in_or
 {
     const decl *d = g->open;
     const res_plan *r = &g->next->res[io->res];
-    const version_rec *v = &g->next->version[r->version + io->version - 1u];
     if (io->flags & IO_LAST) {
         if (!r->versions)
             fg_decl_fail(g, FG_ERR_INVALID,
@@ -175,6 +174,7 @@ static void check_read(fg_graph *g, uint32_t pass, const io_rec *io, bool *in_or
                      pass_name(d, pass), io->version, res_name(d, io->res));
         return;
     }
+    const version_rec *v = &g->next->version[r->version + io->version - 1u];
     if (v->pass == pass)
         fg_decl_fail(g, FG_ERR_INVALID,
                      "pass '%s' reads version %u of '%s', which it writes itself: read the version "
