@@ -126,10 +126,8 @@ static bool same_record(const cJSON *a, const cJSON *b)
            cJSON_Compare(cJSON_GetObjectItem(a, "params"), cJSON_GetObjectItem(b, "params"), 1);
 }
 
-// In its place by `index`; FG's order of the whole run comes back.
-static int insert_record(cli *c, const char *from, cJSON *records, cJSON *record)
+static int add_record(cli *c, const char *from, cJSON *records, cJSON *record)
 {
-    int place = 0;
     cJSON *other;
     cJSON_ArrayForEach(other, records)
     {
@@ -139,9 +137,31 @@ static int insert_record(cli *c, const char *from, cJSON *records, cJSON *record
                             "%s/report.json: has a setting of '%s' that another folder has too",
                             from, json_text(other, "plugin"));
         }
-        place += json_number(other, "index") <= json_number(record, "index");
     }
-    cJSON_InsertItemInArray(records, place, record);
+    cJSON_AddItemToArray(records, record);
+    return EXIT_DONE;
+}
+
+static int compare_records(const void *a, const void *b)
+{
+    const double x = json_number(*(const cJSON *const *) a, "index");
+    const double y = json_number(*(const cJSON *const *) b, "index");
+    return (x > y) - (x < y);
+}
+
+// The order that one run without shards has.
+static int sort_records(cli *c, cJSON *records)
+{
+    const int count = cJSON_GetArraySize(records);
+    cJSON **sorted = calloc((size_t) count + 1, sizeof(cJSON *));
+    if (!sorted)
+        return cli_status(c, FG_ERR_MEMORY);
+    for (int i = 0; i < count; ++i)
+        sorted[i] = cJSON_DetachItemFromArray(records, 0);
+    qsort(sorted, (size_t) count, sizeof(cJSON *), compare_records);
+    for (int i = 0; i < count; ++i)
+        cJSON_AddItemToArray(records, sorted[i]);
+    free(sorted);
     return EXIT_DONE;
 }
 
@@ -160,7 +180,7 @@ static int join(cli *c, const options *o, const char *from, cJSON *doc, cJSON *p
         cJSON *record = cJSON_DetachItemFromArray(records, 0);
         code = copy_record(c, o, from, record);
         if (code == EXIT_DONE)
-            code = insert_record(c, from, cJSON_GetObjectItem(doc, "records"), record);
+            code = add_record(c, from, cJSON_GetObjectItem(doc, "records"), record);
         else
             cJSON_Delete(record);
     }
@@ -191,5 +211,7 @@ int report_merge(cli *c, const options *o, cJSON **doc)
             code = join(c, o, o->operands[i], *doc, part);
         cJSON_Delete(part);
     }
+    if (code == EXIT_DONE)
+        code = sort_records(c, cJSON_GetObjectItem(*doc, "records"));
     return code;
 }
