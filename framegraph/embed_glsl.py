@@ -46,6 +46,8 @@ def with_defines(text, defines):
 def main():
     root, source, header, depfile, glslang, *permutations = sys.argv[1:]
     root, source = pathlib.Path(root).resolve(), pathlib.Path(source).resolve()
+    if root not in source.parents:
+        sys.exit(f'{source}: is not below {root}')
     seen = []
     text = '\n'.join(expand(source, root, seen)) + '\n'
     if not text.startswith('#version 450 core\n'):
@@ -64,7 +66,8 @@ def main():
         f'#include <fg/gl.h>\n'
         f'static const char {symbol}_text[] = {{{codes}}};\n'
         f'static const fg_gl_shader {symbol} = {{ "{source.relative_to(root)}", {symbol}_text }};\n')
-    pathlib.Path(depfile).write_text(f'{header}: {" ".join(map(str, seen))}\n')
+    escaped = [str(name).replace(' ', '\\ ') for name in [header, *seen]]
+    pathlib.Path(depfile).write_text(f'{escaped[0]}: {" ".join(escaped[1:])}\n')
 
 
 main()
