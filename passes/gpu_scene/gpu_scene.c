@@ -265,7 +265,8 @@ static void update_view(ag_gpu_scene *s, const ag_view *view)
     b.scale[1] = 1 / b.scale[0];
     b.size[0] = view->width;
     b.size[1] = view->height;
-    if (s->uploaded && !memcmp(&b, &s->view, sizeof b))
+    // Bits, not values: a block that differs in the sign of a zero is uploaded once too often.
+    if (s->uploaded && !memcmp((const char *) &b, (const char *) &s->view, sizeof b))
         return;
     s->view = b;
     upload(s, BUFFER_VIEW, 0, sizeof b, &b);
@@ -290,7 +291,9 @@ fg_status ag_gpu_scene_update(ag_gpu_scene *s, const ag_view *view)
     REQUIRE(scene->light_count == s->light_count, FG_ERR_INVALID,
             "%s: has %d lights now, had %d when it was uploaded", scene->name, scene->light_count,
             s->light_count);
-    const bool moved = !s->uploaded || memcmp(s->origin, view->origin, sizeof s->origin) != 0;
+    bool moved = !s->uploaded;
+    for (int i = 0; i < 3; i++)
+        moved = moved || s->origin[i] != view->origin[i];
     const bool geometry = !s->uploaded || s->geometry_revision != scene->geometry_revision;
     const bool lights = !s->uploaded || s->light_revision != scene->light_revision;
     update_view(s, view);

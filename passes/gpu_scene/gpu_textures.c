@@ -75,7 +75,8 @@ static uint8_t *resample(const ag_texture *t, int width, int height)
         for (int x = 0; x < width; x++) {
             float rgba[4];
             uint8_t *texel = out + 4 * ((size_t) y * width + x);
-            ag_texture_sample(t, (x + 0.5f) / width, (y + 0.5f) / height, rgba);
+            ag_texture_sample(t, ((float) x + 0.5f) / (float) width,
+                              ((float) y + 0.5f) / (float) height, rgba);
             for (int c = 0; c < 4; c++)
                 texel[c] = to_byte(rgba[c], t->srgb && c < 3);
         }
@@ -111,16 +112,10 @@ static uint64_t create_bin(texture_bin *bin)
     return (uint64_t) bin->width * bin->height * bin->layers * 4 * 4 / 3;
 }
 
-fg_status texture_set_init(const fg_log *log, const ag_scene *scene, texture_set *set)
+// By the first rule that AG_MAX_TEXTURE_BINS suffice for.
+static void choose_bins(const fg_log *log, const ag_scene *scene, texture_set *set)
 {
-    fg_status status = FG_OK;
-    int rule = SIZE_EXACT, max_size = 0, max_layers = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
-    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
-    if (scene->texture_count == 0)
-        return FG_OK;
-    set->places = calloc((size_t) scene->texture_count, sizeof *set->places);
-    REQUIRE(set->places, FG_ERR_MEMORY, "%s: out of memory for textures", scene->name);
+    int rule = SIZE_EXACT;
     while (rule < SIZE_RULES && !assign_bins(scene, rule, set)) {
         *set = (texture_set){ .places = set->places };
         rule++;
@@ -129,23 +124,48 @@ fg_status texture_set_init(const fg_log *log, const ag_scene *scene, texture_set
     if (rule != SIZE_EXACT)
         fg_logf(log, FG_LOG_WARN, "%s: textures of many sizes are resampled to %d arrays",
                 scene->name, set->bin_count);
+}
+
+static fg_status create_bins(const fg_log *log, const char *scene, texture_set *set)
+{
+    int max_size = 0, max_layers = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
     for (int b = 0; b < set->bin_count; b++) {
         texture_bin *bin = &set->bins[b];
-        REQUIRE(bin->width <= max_size && bin->height <= max_size && bin->layers <= max_layers,
-                FG_ERR_UNSUPPORTED, "%s: %d textures of %d x %d; the device takes %d of %d",
-                scene->name, bin->layers, bin->width, bin->height, max_layers, max_size);
+        if (bin->width > max_size || bin->height > max_size || bin->layers > max_layers) {
+            fg_logf(log, FG_LOG_ERROR, "%s: %d textures of %d x %d; the device takes %d of %d",
+                    scene, bin->layers, bin->width, bin->height, max_layers, max_size);
+            return FG_ERR_UNSUPPORTED;
+        }
         set->bytes += create_bin(bin);
     }
-    for (int t = 0; t < scene->texture_count; t++)
-        REQUIRE(upload(&scene->textures[t], &set->bins[set->places[t][0]], set->places[t][1]),
-                FG_ERR_MEMORY, "%s: out of memory for texture %s", scene->name,
-                scene->textures[t].name);
+    return FG_OK;
+}
+
+fg_status texture_set_init(const fg_log *log, const ag_scene *scene, texture_set *set)
+{
+    if (scene->texture_count == 0)
+        return FG_OK;
+    set->places = calloc((size_t) scene->texture_count, sizeof *set->places);
+    if (!set->places) {
+        fg_logf(log, FG_LOG_ERROR, "%s: out of memory for textures", scene->name);
+        return FG_ERR_MEMORY;
+    }
+    choose_bins(log, scene, set);
+    const fg_status status = create_bins(log, scene->name, set);
+    if (status)
+        return status;
+    for (int t = 0; t < scene->texture_count; t++) {
+        if (!upload(&scene->textures[t], &set->bins[set->places[t][0]], set->places[t][1])) {
+            fg_logf(log, FG_LOG_ERROR, "%s: out of memory for texture %s", scene->name,
+                    scene->textures[t].name);
+            return FG_ERR_MEMORY;
+        }
+    }
     for (int b = 0; b < set->bin_count; b++)
         glGenerateTextureMipmap(set->bins[b].texture);
     return FG_OK;
-
-fail:
-    return status;
 }
 
 void texture_set_finish(texture_set *set)

@@ -23,7 +23,7 @@ static void axes_of_light(const ag_light *light, double axes[3][3])
     double look[16];
     ag_mat_look_to(origin, d, up, look);
     for (int i = 0; i < 3; i++) {
-        axes[0][i] = look[4 * i];
+        axes[0][i] = look[4 * (size_t) i];
         axes[1][i] = look[4 * i + 1];
         axes[2][i] = -look[4 * i + 2];
     }
@@ -50,7 +50,7 @@ static void set_face(const double eye[3], const double forward[3], const double 
     ag_mat_mul(proj, look, clip);
     ag_mat_to_float(clip, out->view_proj);
     for (int i = 0; i < 3; i++) {
-        out->right[i] = (float) look[4 * i];
+        out->right[i] = (float) look[4 * (size_t) i];
         out->up[i] = (float) look[4 * i + 1];
         out->forward[i] = (float) -look[4 * i + 2];
         out->eye[i] = (float) eye[i];

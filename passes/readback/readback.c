@@ -7,7 +7,7 @@
 fg_status ag_readback_init(ag_readback *r)
 {
     const GLbitfield flags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    const GLsizeiptr size = AG_READBACK_SLOTS * AG_READBACK_BYTES;
+    const GLsizeiptr size = (GLsizeiptr) AG_READBACK_SLOTS * AG_READBACK_BYTES;
     *r = (ag_readback){ 0 };
     glCreateBuffers(1, &r->buffer);
     glNamedBufferStorage(r->buffer, size, NULL, flags);
@@ -48,7 +48,7 @@ static void collect(ag_readback *r)
         const int slot = (r->next + i) % AG_READBACK_SLOTS;
         if (!r->fences[slot] || !arrived(r, slot))
             continue;
-        memcpy(r->latest, (const char *) r->mapped + slot * AG_READBACK_BYTES, r->size);
+        memcpy(r->latest, (const char *) r->mapped + (size_t) slot * AG_READBACK_BYTES, r->size);
         r->valid = true;
         glDeleteSync(r->fences[slot]);
         r->fences[slot] = NULL;
@@ -62,7 +62,7 @@ static fg_status run_readback(const fg_run *run, void *user)
     if (r->fences[r->next])
         return FG_OK; // the GPU is AG_READBACK_SLOTS frames behind: this frame goes uncounted
     glCopyNamedBufferSubData(fg_run_object(run, r->source), r->buffer, 0,
-                             r->next * AG_READBACK_BYTES, (GLsizeiptr) r->size);
+                             (GLintptr) r->next * AG_READBACK_BYTES, (GLsizeiptr) r->size);
     r->fences[r->next] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     r->next = (r->next + 1) % AG_READBACK_SLOTS;
     return FG_OK;

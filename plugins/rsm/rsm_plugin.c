@@ -111,7 +111,7 @@ static fg_status rsm_create(const gi_env *env, const gi_value *values, void **se
 static int grid_edge(const gi_value *values)
 {
     int edge = 1;
-    while (4 * (int64_t) edge * edge <= values[VPLS].i && 2 * edge <= values[RSM_SIZE].i)
+    while (4 * (int64_t) edge * edge <= values[VPLS].i && (int64_t) 2 * edge <= values[RSM_SIZE].i)
         edge *= 2;
     return edge;
 }

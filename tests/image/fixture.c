@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
+#include <pass/math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,6 +151,14 @@ static void add_blocks(ag_builder *b, const double centre[3], double edge)
     }
 }
 
+ag_camera plain_camera(const char *name)
+{
+    ag_camera camera = { .yfov = 1.5f, .znear = 1e-3f };
+    snprintf(camera.name, sizeof camera.name, "%s", name);
+    ag_mat_identity(camera.world);
+    return camera;
+}
+
 ag_builder *room_builder(const room_desc *desc)
 {
     ag_builder *b = ag_builder_create(test_log(), "room");
@@ -171,9 +180,9 @@ ag_builder *room_builder(const room_desc *desc)
     add_box(b, materials, lo, hi, true);
     if (desc->boxes)
         add_blocks(b, desc->centre, edge);
-    ag_camera camera = { .name = "wall", .yfov = 1.3f, .znear = (float) (1e-3 * edge) };
-    for (int k = 0; k < 4; k++)
-        camera.world[5 * k] = 1;
+    ag_camera camera = plain_camera("wall");
+    camera.yfov = 1.3f;
+    camera.znear = (float) (1e-3 * edge);
     for (int k = 0; k < 3; k++)
         camera.world[12 + k] = desc->centre[k] + (k == 2 ? 0.48 * edge : 0);
     ag_builder_camera(b, -1, &camera);
@@ -324,37 +333,43 @@ image render_captured(ag_scene *scene, int width, int height, renderer_layer lay
     return take(&s);
 }
 
-ag_scene *sphere_scene(int rings, float albedo)
+static void sphere_vertices(int rings, ag_vertex *v)
 {
-    const int columns = 2 * rings, row = columns + 1;
-    const size_t vertex_count = (size_t) row * (rings + 1);
-    ag_vertex *vertices = calloc(vertex_count, sizeof *vertices);
-    uint32_t *indices = calloc((size_t) 6 * columns * rings, sizeof *indices);
-    size_t n = 0;
-    assert_true(vertices && indices);
     for (int i = 0; i <= rings; i++) {
-        for (int j = 0; j <= columns; j++) {
-            ag_vertex *v = &vertices[i * row + j];
+        for (int j = 0; j <= 2 * rings; j++, v++) {
             const double polar = 3.14159265358979 * i / rings;
             const double around = 3.14159265358979 * j / rings;
-            const double p[3] = { sin(polar) * cos(around), cos(polar), sin(polar) * sin(around) };
-            for (int k = 0; k < 3; k++) {
-                v->position[k] = (float) p[k];
-                v->normal[k] = (float) -p[k];
-            }
-            for (int k = 0; k < 4; k++)
-                v->color[k] = 1;
+            const float p[3] = { (float) (sin(polar) * cos(around)), (float) cos(polar),
+                                 (float) (sin(polar) * sin(around)) };
+            *v = (ag_vertex){ .position = { p[0], p[1], p[2] },
+                              .normal = { -p[0], -p[1], -p[2] },
+                              .color = { 1, 1, 1, 1 } };
         }
     }
-    for (int i = 0; i < rings; i++) {
-        for (int j = 0; j < columns; j++) {
-            const uint32_t a = (uint32_t) (i * row + j), b = a + 1, c = a + (uint32_t) row,
-                           d = c + 1;
+}
+
+static void sphere_indices(int rings, uint32_t *indices)
+{
+    const uint32_t row = 2 * (uint32_t) rings + 1;
+    for (uint32_t i = 0; i < (uint32_t) rings; i++) {
+        for (uint32_t j = 0; j + 1 < row; j++, indices += 6) {
+            const uint32_t a = i * row + j, b = a + 1, c = a + row, d = c + 1;
             const uint32_t quad[6] = { a, c, b, b, c, d }; // counter-clockwise from inside
-            memcpy(indices + n, quad, sizeof quad);
-            n += 6;
+            memcpy(indices, quad, sizeof quad);
         }
     }
+}
+
+ag_scene *sphere_scene(int rings, float albedo)
+{
+    const size_t columns = 2 * (size_t) rings;
+    const size_t vertex_count = (columns + 1) * ((size_t) rings + 1);
+    const size_t index_count = 6 * columns * (size_t) rings;
+    ag_vertex *vertices = calloc(vertex_count, sizeof *vertices);
+    uint32_t *indices = calloc(index_count, sizeof *indices);
+    assert_true(vertices && indices);
+    sphere_vertices(rings, vertices);
+    sphere_indices(rings, indices);
     ag_builder *builder = ag_builder_create(test_log(), "sphere");
     const float rgb[3] = { albedo, albedo, albedo };
     const ag_primitive_desc sphere = {
@@ -362,17 +377,15 @@ ag_scene *sphere_scene(int rings, float albedo)
         .vertices = vertices,
         .vertex_count = vertex_count,
         .indices = indices,
-        .index_count = n,
+        .index_count = index_count,
         .material = diffuse(builder, rgb),
     };
     const ag_node_desc node = { .name = "sphere", .parent = -1 };
     const ag_light light = { .name = "point", .direction = { 0, -1, 0 }, .intensity = { 1, 1, 1 } };
+    const ag_camera camera = plain_camera("centre");
     const int primitive = ag_builder_primitive(builder, &sphere);
     ag_builder_show(builder, ag_builder_node(builder, &node), primitive, -1);
     ag_builder_light(builder, -1, &light);
-    ag_camera camera = { .name = "centre", .yfov = 1.5f, .znear = 1e-3f };
-    for (int k = 0; k < 4; k++)
-        camera.world[5 * k] = 1;
     ag_builder_camera(builder, -1, &camera);
     free(vertices);
     free(indices);

@@ -31,6 +31,9 @@ typedef struct room_desc {
     bool boxes;         // two blocks on the floor
 } room_desc;
 
+// At the origin, looking along -z, 1.5 radians up and down.
+ag_camera plain_camera(const char *name);
+
 // A builder with the room in it and a camera at its +z wall that looks along -z.
 ag_builder *room_builder(const room_desc *desc);
 // `light`'s position is in edges from the centre. NULL: no light.

@@ -245,9 +245,7 @@ static void emission_is_seen_from_the_front_alone(void **state)
             m.emissive[2] = 70000; // beyond a half float
             m.double_sided = both;
             add_quad(b, ag_builder_material(b, &m), p, back ? y : x, back ? x : y);
-            ag_camera camera = { .name = "front", .yfov = 1, .znear = 0.01f };
-            for (int k = 0; k < 4; k++)
-                camera.world[5 * k] = 1;
+            const ag_camera camera = plain_camera("front");
             ag_builder_camera(b, -1, &camera);
             ag_scene *scene = finish_scene(b);
             image direct = render_layer(scene, 3, 3, LAYER_DIRECT, NULL, NULL);

@@ -65,7 +65,7 @@ static void receivers_of_an_invocation_share_nothing_but_loads(void **state)
     run_frame(&h, scene, W, H);
     read_gather(&h, 0, first, sizeof first);
     for (int i = 0; i < W * H; i++)
-        assert_true(first[4 * i] > 0);
+        assert_true(first[4 * (size_t) i] > 0);
     for (int i = 1; i < 3; i++) {
         memset(other, 0, sizeof other);
         read_gather(&h, i, other, sizeof other);

@@ -66,7 +66,7 @@ static void direct_light_is_the_references(void **state)
 // 100 of 4096 with errors around a third.
 static void one_bounce_nears_the_references_as_the_map_grows(void **state)
 {
-    enum { SIZE = 64, SPP = 1024 };
+    enum { SIZE = 64, SPP = 512 };
     static const char *const sizes[] = { "rsm_size=32", "rsm_size=64", "rsm_size=128",
                                          "rsm_size=256" };
     (void) state;

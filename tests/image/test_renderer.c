@@ -44,6 +44,8 @@ static image frame(renderer *r, renderer_layer layer)
     image img = { 0 };
     if (renderer_frame(r, 0) || renderer_read(r, layer, &img))
         fail_msg("%s", log_text());
+    if (!img.rgb)
+        abort(); // fail_msg() does not return, which analysers cannot know
     return img;
 }
 

@@ -46,29 +46,30 @@ static double room_power(ag_scene *scene, const char *const *settings)
 
 // All of the light's power lands on some texel: what is left is the midpoint rule over a spot's
 // ramp, 64 samples across at least, whose second derivative jumps at the ramp's ends.
+static void expect_power(ag_scene *scene, double want, const char *size, double bound)
+{
+    const char *const settings[] = { size, "pattern=all", NULL };
+    const double got = room_power(scene, settings);
+    if (fabs(got / want - 1) > bound)
+        fail_msg("%s: %.6f W of %.6f W (%+.2e)", size, got, want, got / want - 1);
+}
+
 static void maps_hold_the_power_of_the_light(void **state)
 {
     (void) state;
-    static const char *const sizes[] = { "rsm_size=1", "rsm_size=2", "rsm_size=32",
-                                         "rsm_size=256" };
     const room_desc room = white_room();
     ag_light lights[4] = { ceiling_spot(35), ceiling_spot(58), ceiling_spot(80), ceiling_spot(90) };
     lights[3].cosine = true;
     for (int l = 0; l < FG_COUNT(lights); l++) {
         ag_scene *scene = room_scene(&room, &lights[l]);
         const double want = spot_power(&lights[l]);
-        for (int s = 0; s < FG_COUNT(sizes); s++) {
-            const char *const settings[] = { sizes[s], "pattern=all", NULL };
-            const double got = room_power(scene, settings);
-            const double bound = s == 3 ? 1e-4 : 2e-3;
-            // One texel of a face loses all where its centre is in the dark, as in half of a cosine
-            // spot's side faces; from two on both halves have centres.
-            if (s == 0 && l >= 2)
-                continue;
-            if (fabs(got / want - 1) > bound)
-                fail_msg("light %d, %s: %.6f W of %.6f W (%+.2e)", l, sizes[s], got, want,
-                         got / want - 1);
-        }
+        expect_power(scene, want, "rsm_size=256", 1e-4);
+        expect_power(scene, want, "rsm_size=32", 2e-3);
+        expect_power(scene, want, "rsm_size=2", 2e-3);
+        // One texel of a face loses all where its centre is in the dark, as in half of a
+        // cosine spot's side faces; from two on both halves have centres.
+        if (l < 2)
+            expect_power(scene, want, "rsm_size=1", 2e-3);
         ag_scene_destroy(scene);
     }
 }
@@ -154,14 +155,12 @@ static void choosing_fewer_vpls_keeps_the_energy(void **state)
     const double want = room_power(scene, all);
     const char *const patterns[] = { "pattern=regular", "pattern=stratified" };
     const char *const counts[] = { "vpls=1", "vpls=17", "vpls=256", "vpls=16384" };
-    for (int p = 0; p < 2; p++) {
-        for (int c = 0; c < FG_COUNT(counts); c++) {
-            const char *const settings[] = { patterns[p], counts[c], NULL };
-            const double got = room_power(scene, settings);
-            // The same float terms in another order: 65536 of them, 2^-24 each.
-            if (fabs(got / want - 1) > 1e-5)
-                fail_msg("%s %s: %.7f W of %.7f W", patterns[p], counts[c], got, want);
-        }
+    for (int i = 0; i < 2 * FG_COUNT(counts); i++) {
+        const char *const settings[] = { patterns[i % 2], counts[i / 2], NULL };
+        const double got = room_power(scene, settings);
+        // The same float terms in another order: 65536 of them, 2^-24 each.
+        if (fabs(got / want - 1) > 1e-5)
+            fail_msg("%s %s: %.7f W of %.7f W", settings[0], settings[1], got, want);
     }
     ag_scene_destroy(scene);
 }
@@ -244,9 +243,9 @@ static void expect_gather(const char *clamp, spread_fn spread)
     assert_in_range(count[0], 600, 1024); // pi / 4 of the texels are within the cone
     assert_int_equal(count[1], 1024);
     for (int i = 0; i < W * H; i++) {
-        const double want =
-            gather(c[0].bytes, count[0], c[3].texels + 4 * i, c[4].texels + 4 * i, spread);
-        const double got = (double) c[2].texels[4 * i];
+        const double want = gather(c[0].bytes, count[0], c[3].texels + 4 * (size_t) i,
+                                   c[4].texels + 4 * (size_t) i, spread);
+        const double got = (double) c[2].texels[4 * (size_t) i];
         // 1024 float terms in sums of 64: 64 + 16 roundings at most; a cosine of one near
         // grazing loses some more.
         if (fabs(got - want) > 1e-5 * want + 1e-9)
@@ -377,9 +376,9 @@ static void receivers_of_one_invocation_do_not_matter(void **state)
     image img = render_captured(scene, 33, 45, LAYER_INDIRECT, settings, c);
     const uint32_t *count = c[1].bytes;
     for (int i = 32; i < 33 * 45; i += 33) {
-        const double want =
-            gather(c[0].bytes, count[0], c[3].texels + 4 * i, c[4].texels + 4 * i, disc);
-        assert_true(fabs((double) c[2].texels[4 * i] - want) <= 1e-5 * want + 1e-9);
+        const double want = gather(c[0].bytes, count[0], c[3].texels + 4 * (size_t) i,
+                                   c[4].texels + 4 * (size_t) i, disc);
+        assert_true(fabs((double) c[2].texels[4 * (size_t) i] - want) <= 1e-5 * want + 1e-9);
     }
     image_finish(&img);
     captures_finish(c);
