@@ -8,7 +8,9 @@
 // so per bit the position of the last one is all there is to know: an access needs a
 // barrier if what it depends on is newer.
 //
-// A frame follows itself: planning starts from the state that one frame leaves behind.
+// A frame follows itself, and what it leaves behind is its own doing: planning starts as
+// if all that is ever stored to had just been stored to. That is at most one barrier of
+// a kind a frame too many.
 #include "graph_priv.h"
 
 #include <string.h>
@@ -22,17 +24,15 @@ typedef struct barrier_state {
     uint32_t at[BARRIER_BITS]; // position of the last barrier per bit; 0: none
 } barrier_state;
 
-static unsigned use_bit(unsigned use)
-{
-    static const uint16_t bits[] = {
-        [FG_USE_SAMPLED] = FG_BARRIER_SAMPLED,   [FG_USE_IMAGE] = FG_BARRIER_IMAGE,
-        [FG_USE_COLOR] = FG_BARRIER_ATTACHMENT,  [FG_USE_DEPTH] = FG_BARRIER_ATTACHMENT,
-        [FG_USE_STORAGE] = FG_BARRIER_STORAGE,   [FG_USE_UNIFORM] = FG_BARRIER_UNIFORM,
-        [FG_USE_VERTEX] = FG_BARRIER_VERTEX,     [FG_USE_INDEX] = FG_BARRIER_INDEX,
-        [FG_USE_INDIRECT] = FG_BARRIER_INDIRECT, [FG_USE_COPY] = FG_BARRIER_COPY,
-    };
-    return bits[use];
-}
+enum { COPY_BIT = 8 };
+_Static_assert(FG_BARRIER_COPY == 1 << COPY_BIT, "index of a barrier bit");
+
+// Indices of fg_barrier bits.
+static const uint8_t use_bit[] = {
+    [FG_USE_SAMPLED] = 0,  [FG_USE_IMAGE] = 1,       [FG_USE_COLOR] = 2,  [FG_USE_DEPTH] = 2,
+    [FG_USE_STORAGE] = 3,  [FG_USE_UNIFORM] = 4,     [FG_USE_VERTEX] = 5, [FG_USE_INDEX] = 6,
+    [FG_USE_INDIRECT] = 7, [FG_USE_COPY] = COPY_BIT,
+};
 
 // ---- clears: what is read or kept before it is written -----------------------------------
 
@@ -85,9 +85,13 @@ static bool clear_for(fg_graph *g, const io_rec *io, uint32_t value)
     res_plan *rp = &p->res[io->res];
     const bool flat = r->depth > 0;
     const uint32_t layers = flat ? 1 : sub_layers(r);
+    if (layers * r->mips == 1) {
+        const uint8_t flags = clear_flags(io, rp->written);
+        rp->written = 1;
+        return !flags || add_clear(g, io, &(clear_run){ 0, 1, 0 }, value, flags);
+    }
     const uint32_t from = flat ? 0 : io->layer, to = flat ? 1u : (uint32_t) io->layer + io->layers;
-    uint8_t single = (uint8_t) (rp->written & 1);
-    uint8_t *written = layers * r->mips > 1 ? p->written + rp->written : &single;
+    uint8_t *written = p->written + rp->written;
     for (uint32_t m = io->mip; m < (uint32_t) io->mip + io->mips; m++) {
         uint8_t *row = written + m * layers;
         for (uint32_t l = from, end; l < to; l = end) {
@@ -100,8 +104,6 @@ static bool clear_for(fg_graph *g, const io_rec *io, uint32_t value)
         }
         memset(row + from, 1, to - from);
     }
-    if (layers * r->mips == 1)
-        rp->written = single;
     return true;
 }
 
@@ -209,69 +211,64 @@ static bool plan_clears(fg_graph *g)
 
 // ---- barriers ---------------------------------------------------------------------------
 
-// A range of subresources of a slot.
+// What an access touches: `rows` by `columns` subresources.
 typedef struct touch {
-    uint32_t slot, layers; // layers of the whole slot
-    uint32_t mip, mip_end, layer, layer_end;
-    unsigned bit;
+    sub_state *first;
+    uint32_t stride, rows, columns;
+    uint32_t bit;    // index of the barrier bit it needs
     bool incoherent; // a write to an image or a storage buffer
 } touch;
 
-// Bits that `t` needs now.
-static unsigned needs_of(const barrier_state *b, const touch *t, uint32_t now)
+// Whether `t` needs a barrier at `now`.
+static bool needs_barrier(const barrier_state *b, const touch *t, uint32_t now)
 {
-    const uint32_t last = b->at[__builtin_ctz(t->bit)];
-    for (uint32_t m = t->mip; m < t->mip_end; m++) {
-        const sub_state *row = &b->p->sub[b->p->slot[t->slot].subs + m * t->layers];
-        for (uint32_t l = t->layer; l < t->layer_end; l++) {
-            b->g->work++;
+    const uint32_t last = b->at[t->bit];
+    const sub_state *row = t->first;
+    b->g->work += t->rows * t->columns;
+    for (uint32_t m = 0; m < t->rows; m++, row += t->stride)
+        for (uint32_t l = 0; l < t->columns; l++)
             if (row[l].write > last ||
                 (t->incoherent && row[l].touch > last && row[l].touch != now))
-                return t->bit;
-        }
-    }
-    return 0;
+                return true;
+    return false;
 }
 
-static void note(const barrier_state *b, const touch *t, uint32_t now)
+static void note(const touch *t, uint32_t now)
 {
-    for (uint32_t m = t->mip; m < t->mip_end; m++) {
-        sub_state *row = &b->p->sub[b->p->slot[t->slot].subs + m * t->layers];
-        for (uint32_t l = t->layer; l < t->layer_end; l++) {
+    sub_state *row = t->first;
+    for (uint32_t m = 0; m < t->rows; m++, row += t->stride)
+        for (uint32_t l = 0; l < t->columns; l++) {
             row[l].touch = now;
             if (t->incoherent)
                 row[l].write = now;
         }
-    }
 }
 
 // After a full overwrite that OpenGL orders, what shaders stored before no longer shows.
-static void forget(const barrier_state *b, const touch *t)
+static void forget(const touch *t)
 {
-    for (uint32_t m = t->mip; m < t->mip_end; m++) {
-        sub_state *row = &b->p->sub[b->p->slot[t->slot].subs + m * t->layers];
-        for (uint32_t l = t->layer; l < t->layer_end; l++)
+    sub_state *row = t->first;
+    for (uint32_t m = 0; m < t->rows; m++, row += t->stride)
+        for (uint32_t l = 0; l < t->columns; l++)
             row[l].write = 0;
-    }
 }
 
+// Where nothing is ever written incoherently there is nothing to do.
 static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
 {
     const io_rec *io = &b->d->io[k];
     if (b->p->absent[k])
         return false;
-    const uint32_t slot = b->p->res[io->res].slot + (io->flags & IO_LAST ? 1 : 0);
-    if (!b->p->slot[slot].incoherent)
+    const slot_rec *slot = &b->p->slot[b->p->res[io->res].slot + (io->flags & IO_LAST ? 1 : 0)];
+    if (!slot->incoherent)
         return false;
     const res_rec *r = &b->d->res[io->res];
     const bool flat = r->depth > 0;
-    t->slot = slot;
-    t->layers = flat ? 1 : sub_layers(r);
-    t->mip = io->mip;
-    t->mip_end = (uint32_t) io->mip + io->mips;
-    t->layer = flat ? 0 : io->layer;
-    t->layer_end = flat ? 1 : (uint32_t) io->layer + io->layers;
-    t->bit = use_bit(io->use);
+    t->stride = flat ? 1 : sub_layers(r);
+    t->first = &b->p->sub[slot->subs + io->mip * t->stride + (flat ? 0 : io->layer)];
+    t->rows = io->mips;
+    t->columns = flat ? 1 : io->layers;
+    t->bit = use_bit[io->use];
     t->incoherent =
         (io->flags & IO_WRITE) && (io->use == FG_USE_IMAGE || io->use == FG_USE_STORAGE);
     return true;
@@ -279,19 +276,16 @@ static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
 
 static bool touch_of_clear(const barrier_state *b, const clear_rec *c, touch *t)
 {
-    const uint32_t slot = b->p->res[c->res].slot;
-    if (!b->p->slot[slot].incoherent)
+    const slot_rec *slot = &b->p->slot[b->p->res[c->res].slot];
+    if (!slot->incoherent)
         return false;
     const res_rec *r = &b->d->res[c->res];
-    *t = (touch){
-        .slot = slot,
-        .layers = r->depth ? 1 : sub_layers(r),
-        .mip = c->mip,
-        .mip_end = (uint32_t) c->mip + c->mips,
-        .layer = c->layer,
-        .layer_end = (uint32_t) c->layer + c->layers,
-        .bit = FG_BARRIER_COPY,
-    };
+    t->stride = r->depth ? 1 : sub_layers(r);
+    t->first = &b->p->sub[slot->subs + c->mip * t->stride + c->layer];
+    t->rows = c->mips;
+    t->columns = c->layers;
+    t->bit = COPY_BIT;
+    t->incoherent = false;
     return true;
 }
 
@@ -306,16 +300,17 @@ static void barriers_of_clears(barrier_state *b, step_rec *s, uint32_t now)
 {
     touch t;
     for (uint32_t k = s->clear; k < s[1].clear; k++)
-        if ((b->p->clear[k].flags & CLEAR_IF_ON) && touch_of_clear(b, &b->p->clear[k], &t))
-            s->clear_bits |= (uint16_t) needs_of(b, &t, now + 1);
+        if ((b->p->clear[k].flags & CLEAR_IF_ON) && touch_of_clear(b, &b->p->clear[k], &t) &&
+            needs_barrier(b, &t, now + 1))
+            s->clear_bits = 1u << COPY_BIT;
     issue(b, s->clear_bits, now);
     for (uint32_t k = s->clear; k < s[1].clear; k++) {
         const clear_rec *c = &b->p->clear[k];
         if (!(c->flags & CLEAR_IF_ON) || !touch_of_clear(b, c, &t))
             continue;
-        note(b, &t, now + 1);
+        note(&t, now + 1);
         if (c->flags & CLEAR_IF_OFF)
-            forget(b, &t);
+            forget(&t);
     }
 }
 
@@ -326,39 +321,24 @@ static void barriers_of_step(barrier_state *b, uint32_t step, uint32_t now)
     const pass_rec *rec = &b->d->pass[s->pass];
     const uint32_t end = rec->io + rec->reads + rec->writes;
     touch touches[FG_MAX_READS + FG_MAX_WRITES], t;
-    uint32_t count = 0;
-    s->clear_bits = s->bits = 0;
-    if (s->clear != s[1].clear)
+    unsigned count = 0, bits = 0;
+    if (s->clears)
         barriers_of_clears(b, s, now);
     for (uint32_t k = rec->io; k < end; k++)
         count += touch_of_io(b, k, &touches[count]);
-    for (uint32_t i = 0; i < count; i++)
-        s->bits |= (uint16_t) needs_of(b, &touches[i], now + 3);
-    issue(b, s->bits, now + 2);
+    if (!count)
+        return;
+    for (unsigned i = 0; i < count; i++)
+        if (needs_barrier(b, &touches[i], now + 3))
+            bits |= 1u << touches[i].bit;
+    issue(b, bits, now + 2);
+    s->bits = (uint16_t) bits;
     // A first write that discards: cleared when the pass is off, so new either way.
-    for (uint32_t k = s->clear; count && k < s[1].clear; k++)
+    for (uint32_t k = s->clear; k < s[1].clear; k++)
         if (b->p->clear[k].flags == CLEAR_IF_OFF && touch_of_clear(b, &b->p->clear[k], &t))
-            forget(b, &t);
-    for (uint32_t i = 0; i < count; i++)
-        note(b, &touches[i], now + 3);
-}
-
-// At the end of a frame what was this frame's becomes last frame's.
-static void swap_histories(barrier_state *b)
-{
-    plan *p = b->p;
-    for (uint32_t s = 0; s + 1 < p->slot_count; s++) {
-        if (p->slot[s].kind != SLOT_HISTORY)
-            continue;
-        const uint32_t count = p->slot[s + 1].subs - p->slot[s].subs;
-        for (uint32_t i = 0; i < count; i++) {
-            sub_state *a = &p->sub[p->slot[s].subs + i], *c = a + count;
-            const sub_state hold = *a;
-            *a = *c;
-            *c = hold;
-        }
-        s++;
-    }
+            forget(&t);
+    for (unsigned i = 0; i < count; i++)
+        note(&touches[i], now + 3);
 }
 
 fg_status fg_barriers(fg_graph *g)
@@ -371,13 +351,9 @@ fg_status fg_barriers(fg_graph *g)
     }
     if (!p->incoherent)
         return FG_OK;
-    memset(p->sub, 0, p->sub_count * sizeof *p->sub);
-    for (uint32_t round = 0; round < 2; round++) {
-        const uint32_t base = 4 + round * 4 * p->step_count;
-        if (round)
-            swap_histories(&b);
-        for (uint32_t i = 0; i < p->step_count; i++)
-            barriers_of_step(&b, i, base + 4 * i);
-    }
+    for (uint32_t i = 0; i < p->sub_count; i++)
+        p->sub[i] = (sub_state){ 1, 1 };
+    for (uint32_t i = 0; i < p->step_count; i++)
+        barriers_of_step(&b, i, 4 + 4 * i);
     return FG_OK;
 }

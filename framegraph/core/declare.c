@@ -123,13 +123,10 @@ fg_res fg_next(fg_res res)
 
 // ---- resources --------------------------------------------------------------------------
 
+// Levels of the full chain.
 static int mip_levels(int width, int height, int depth)
 {
-    int size = width > height ? width : height;
-    int levels = 1;
-    for (size = size > depth ? size : depth; size > 1; size >>= 1)
-        levels++;
-    return levels;
+    return 32 - __builtin_clz((unsigned) (width | height | depth));
 }
 
 static int at_mip(int size, int mip)

@@ -26,9 +26,14 @@ static unsigned random_below(unsigned n)
 
 // ---- a device that simulates memory -----------------------------------------------------
 
+//
+// It also keeps the clock of OpenGL's incoherent memory: when each block was stored to by a
+// shader (`stored`) and when it was last touched, and the last barrier of each kind.
 typedef struct sim {
     fg_device base;
     uint64_t memory[MOST_OBJECTS][MIPS];
+    unsigned stored[MOST_OBJECTS][MIPS], touched[MOST_OBJECTS][MIPS];
+    unsigned clock, barrier[9];
     uint32_t block[MOST_OBJECTS]; // object -> row of `memory`; views share
     uint32_t objects;
     int live;
@@ -105,16 +110,33 @@ static fg_status frame_end(fg_device *dev)
 
 static void barrier(fg_device *dev, unsigned bits)
 {
-    (void) dev;
+    sim *s = (sim *) dev;
     assert_int_not_equal(bits, 0);
+    for (int i = 0; i < 9; i++)
+        if (bits >> i & 1)
+            s->barrier[i] = ++s->clock;
+}
+
+// C90, C91: an access of a kind sees earlier stores only past a barrier of that kind, and
+// a store must not overtake any earlier access.
+static void touch(sim *s, uint32_t block, int mip, int kind, bool store)
+{
+    if (s->stored[block][mip] > s->barrier[kind])
+        fail_msg("a barrier of kind %d is missing after a store", kind);
+    if (store && s->touched[block][mip] > s->barrier[kind])
+        fail_msg("a barrier of kind %d is missing before a store", kind);
 }
 
 static void clear(fg_device *dev, const fg_clear *c)
 {
     sim *s = (sim *) dev;
-    for (int m = c->mip; m < c->mip + c->mips; m++)
-        s->memory[s->block[c->object]][m] =
-            c->poison ? mix(++s->garbage, 99) : (uint64_t) c->value[0];
+    const uint32_t block = s->block[c->object];
+    for (int m = c->mip; m < c->mip + c->mips; m++) {
+        touch(s, block, m, 8, false);
+        s->touched[block][m] = ++s->clock;
+        s->stored[block][m] = 0; // nothing of it shows any more
+        s->memory[block][m] = c->poison ? mix(++s->garbage, 99) : (uint64_t) c->value[0];
+    }
 }
 
 static fg_status pass_begin(fg_device *dev, const fg_pass_begin *begin)
@@ -372,11 +394,40 @@ static uint64_t *memory_of(const fg_run *run, world *w, const io *x)
     return w->sim.memory[w->sim.block[object]];
 }
 
+// A pass makes all its accesses at once, after the barriers before it.
+static void touch_all(const fg_run *run, const pass *p)
+{
+    static const int kinds[] = {
+        [FG_USE_SAMPLED] = 0, [FG_USE_IMAGE] = 1, [FG_USE_COLOR] = 2, [FG_USE_STORAGE] = 3
+    };
+    world *w = p->world;
+    sim *s = &w->sim;
+    for (int k = 0; k < 2 * (p->read_count + p->write_count); k++) {
+        const int i = k % (p->read_count + p->write_count);
+        const bool write = i >= p->read_count, check = k == i;
+        const io *x = write ? &p->writes[i - p->read_count] : &p->reads[i];
+        const bool store = write && (x->use == FG_USE_IMAGE || x->use == FG_USE_STORAGE);
+        const uint32_t block = s->block[fg_run_object(run, handle_of(w, x))];
+        for (int m = x->mip; m < x->mip + x->mips; m++) {
+            if (check) {
+                touch(s, block, m, kinds[x->use], store);
+                continue;
+            }
+            s->touched[block][m] = ++s->clock;
+            if (store)
+                s->stored[block][m] = s->clock;
+            else if (write && x->load == FG_LOAD_DISCARD)
+                s->stored[block][m] = 0;
+        }
+    }
+}
+
 static fg_status execute(const fg_run *run, void *user)
 {
     pass *p = user;
     world *w = p->world;
     uint64_t h = name_of(p);
+    touch_all(run, p);
     for (int k = 0; k < p->read_count; k++) {
         const uint64_t *memory = memory_of(run, w, &p->reads[k]);
         for (int m = p->reads[k].mip; m < p->reads[k].mip + p->reads[k].mips; m++)

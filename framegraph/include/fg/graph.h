@@ -83,13 +83,16 @@ typedef struct fg_buf_desc {
 } fg_buf_desc;
 
 // `desc` is read during the call; `name` is unique in the declaration and copied.
+// Subresources that a frame has not written when they are read are cleared to zero;
+// a read that meets nothing written at all is refused.
 FG_API fg_res fg_texture(fg_graph *g, const char *name, const fg_tex_desc *desc);
 FG_API fg_res fg_buffer(fg_graph *g, const char *name, const fg_buf_desc *desc);
 
 // A resource that the caller owns; `object` is the device's name for it (a GL
 // name), not 0, and stays valid while the graph runs. It arrives written: the
 // handle can be read at once and fg_next() of it is what a first pass makes.
-// Writing to an import is an effect outside: it keeps the pass.
+// Writing to an import is an effect outside: it keeps the pass. Another object in an
+// otherwise equal declaration is bound without a compile.
 FG_API fg_res fg_import_texture(fg_graph *g, const char *name, const fg_tex_desc *desc,
                                 uint32_t object);
 FG_API fg_res fg_import_buffer(fg_graph *g, const char *name, const fg_buf_desc *desc,
@@ -99,7 +102,8 @@ FG_API fg_res fg_import_buffer(fg_graph *g, const char *name, const fg_buf_desc 
 // `res` is any version of it. Reading it keeps the resource's writers. Histories
 // are known by name and survive recompiles, culling and declarations that leave
 // them out, until fg_graph_trim(); a new size or format resets them and the log
-// says why. What to read is resolved when the frame runs.
+// says why. What to read is resolved when the frame runs. A frame that fails changes
+// no history.
 FG_API fg_res fg_last_frame(fg_graph *g, fg_res res);
 
 // Keeps a version beyond the frame: it is not culled, shares no memory, and
@@ -168,7 +172,9 @@ typedef struct fg_pass_desc {
     fg_io reads[FG_MAX_READS];
     fg_io writes[FG_MAX_WRITES];
     fg_effect effect;
-    uint64_t needs; // Feature bits; where the frame lacks one, the pass is left out.
+    uint64_t needs; // Feature bits; where the frame lacks one, the pass is left out. What it was to
+                    // change is then read as it was before; what only it makes, optionally or not at
+                    // all.
     fg_status (*run)(const fg_run *run, void *user); // Required. A status other than FG_OK ends
                                                      // the frame and comes out of fg_graph_run().
     void *user;                                      // Borrowed while the graph runs.
@@ -295,7 +301,7 @@ FG_API const char *fg_graph_left_out(const fg_graph *g, int i, const char **why)
 typedef struct fg_timing {
     const char *pass;
     double gpu_ms;     // of a frame some frames ago; negative while none has come back
-    double cpu_ms;     // time in the callback, last frame
+    double cpu_ms;     // last frame: the callback, and what the device does around it
     uint64_t frame;    // the frame that gpu_ms is of
     double gpu_start_ms; // since the first pass of that frame began
     double cpu_start_ms; // since fg_graph_run() was entered
