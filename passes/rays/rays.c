@@ -372,11 +372,11 @@ bool ag_rays_blocked(const ag_rays *rays, const float from[3], const float direc
     return ray.tfar < 0;
 }
 
-int ag_rays_all(const ag_rays *rays, const float from[3], const float direction[3], float tnear,
-                float tfar, ag_hit *hits, int max)
+int ag_rays_all(const ag_rays *rays, const float from[3], const float direction[3], float tfar,
+                ag_hit *hits, int max)
 {
     query q = { .all = true, .hits = hits, .max = max };
-    struct RTCRayHit ray = { .ray = ray_of(from, direction, tnear, tfar) };
+    struct RTCRayHit ray = { .ray = ray_of(from, direction, 0, tfar) };
     intersect(rays, &q, &ray);
     for (int i = 0; i < q.count && i < max; ++i)
         complete(rays, direction, hits + i);

@@ -8,7 +8,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-static const image_coder *const coders[] = { &image_png, &image_exr, &image_pfm };
+enum { CODERS = 3 };
+static const image_coder *const coders[CODERS] = { &image_png, &image_exr, &image_pfm };
 
 bool image_size_allowed(double width, double height, char why[IMAGE_WHY])
 {
@@ -57,7 +58,7 @@ void image_finish(image *img)
 static const image_coder *find_coder(const char *path)
 {
     const char *dot = path ? strrchr(path, '.') : NULL;
-    for (int i = 0; dot && i < FG_COUNT(coders); ++i)
+    for (int i = 0; dot && i < CODERS; ++i)
         if (!strcasecmp(dot, coders[i]->extension))
             return coders[i];
     return NULL;

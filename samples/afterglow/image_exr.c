@@ -205,9 +205,10 @@ static bool channels_allowed(exr_const_context_t exr, char why[IMAGE_WHY])
         return false;
     for (int i = 0; i < list->num_channels; ++i) {
         const exr_attr_chlist_entry_t *entry = list->entries + i;
-        if (channel_index(entry->name.str) < 0)
+        const int index = channel_index(entry->name.str);
+        if (index < 0)
             continue;
-        found |= 1 << channel_index(entry->name.str);
+        found |= 1 << index;
         if (entry->x_sampling != 1 || entry->y_sampling != 1 ||
             (entry->pixel_type != EXR_PIXEL_HALF && entry->pixel_type != EXR_PIXEL_FLOAT)) {
             snprintf(why, IMAGE_WHY, "channel %.20s must be half or float at every pixel",

@@ -186,8 +186,7 @@ static void gather(path *p, const double direction[3], const point *end, double 
 // All hits of the ray, into the list; -1: out of memory.
 static int find_all(const tracer *t, const ray *r, hit_list *list)
 {
-    int count =
-        ag_rays_all(t->rays, r->from, r->direction, 0, INFINITY, list->hits, list->capacity);
+    int count = ag_rays_all(t->rays, r->from, r->direction, INFINITY, list->hits, list->capacity);
     if (count <= list->capacity)
         return count;
     ag_hit *grown = realloc(list->hits, (size_t) count * 2 * sizeof *grown);
@@ -195,7 +194,7 @@ static int find_all(const tracer *t, const ray *r, hit_list *list)
         return -1;
     list->hits = grown;
     list->capacity = count * 2;
-    return ag_rays_all(t->rays, r->from, r->direction, 0, INFINITY, list->hits, list->capacity);
+    return ag_rays_all(t->rays, r->from, r->direction, INFINITY, list->hits, list->capacity);
 }
 
 // Every surface along the ray, as if none hid another. A lit side that is turned away shows its

@@ -42,12 +42,18 @@ static inline image test_render(reference_desc desc, const ag_scene *scene, cons
     return img;
 }
 
+static inline double test_value(const image *img, int column, int row, int channel)
+{
+    return (double) img->rgb[(ptrdiff_t) 3 * (row * img->width + column) + channel];
+}
+
 // Of the red channel.
 static inline double test_mean(const image *img)
 {
     double sum = 0;
-    for (int i = 0; i < img->width * img->height; ++i)
-        sum += (double) img->rgb[3 * i];
+    for (int j = 0; j < img->height; ++j)
+        for (int i = 0; i < img->width; ++i)
+            sum += test_value(img, i, j, 0);
     return sum / (img->width * img->height);
 }
 

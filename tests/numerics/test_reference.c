@@ -34,7 +34,7 @@ static void expect_floor(const ag_light *light, double (*intensity)(double cosin
             const double z = light->position[2], d2 = x * x + y * y + z * z;
             const double cosine = z / sqrt(d2); // at both ends: the axis is the plane's normal
             const double expected = 0.5 / test_pi * intensity(cosine) * cosine / d2;
-            test_near((double) img.rgb[3 * (SIDE * j + i)], expected, 1e-4 * expected + 1e-9);
+            test_near(test_value(&img, i, j, 0), expected, 1e-4 * expected + 1e-9);
             brightest = fmax(brightest, expected);
         }
     assert_true(brightest > 0);
@@ -146,7 +146,8 @@ static void a_mask_lets_light_through(void **state)
     image img =
         test_render((reference_desc){ .width = SIDE, .height = SIDE, .spp = 1 }, scene, &camera);
     for (int i = 0; i < SIDE * SIDE; ++i)
-        test_near((double) img.rgb[3 * i], i % SIDE < SIDE / 2 ? 0.5 / test_pi : 0, rounding);
+        test_near(test_value(&img, i % SIDE, i / SIDE, 0), i % SIDE < SIDE / 2 ? 0.5 / test_pi : 0,
+                  rounding);
     image_finish(&img);
     ag_scene_destroy(scene);
 }
@@ -171,7 +172,7 @@ static void surfaces_are_two_sided(void **state)
         (reference_desc){ .width = 4, .height = 4, .spp = 1, .layer = REFERENCE_NORMAL }, scene,
         &camera);
     for (int i = 0; i < 16; ++i)
-        test_near((double) img.rgb[3 * i + 2], -1, rounding);
+        test_near(test_value(&img, i % 4, i / 4, 2), -1, rounding);
     image_finish(&img);
     ag_scene_destroy(scene);
 }
@@ -269,8 +270,8 @@ static void perspective_rays_pass_the_pixel_centres(void **state)
     const double edge = 4 * tan((double) 0.9f / 2);
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 6; ++i) {
-            test_near((double) img.rgb[3 * (6 * j + i)], edge * ((i + 0.5) / 2 - 1.5), rounding);
-            test_near((double) img.rgb[3 * (6 * j + i) + 1], edge * (1 - (j + 0.5) / 2), rounding);
+            test_near(test_value(&img, i, j, 0), edge * ((i + 0.5) / 2 - 1.5), rounding);
+            test_near(test_value(&img, i, j, 1), edge * (1 - (j + 0.5) / 2), rounding);
         }
     image_finish(&img);
     ag_scene_destroy(scene);
@@ -292,6 +293,8 @@ static void the_near_plane_cuts(void **state)
     }
     ag_scene_destroy(scene);
 }
+
+enum { ROOM_BYTES = 3 * 40 * 24 * sizeof(float) };
 
 // ---- a lit room: determinism, noise, invariance ---------------------------------------
 
@@ -351,8 +354,8 @@ static void threads_do_not_change_a_bit(void **state)
     image one = render_room((reference_desc){ .spp = 8, .threads = 1 });
     image three = render_room((reference_desc){ .spp = 8, .threads = 3 });
     image all = render_room((reference_desc){ .spp = 8 });
-    assert_memory_equal(one.rgb, three.rgb, 3 * 40 * 24 * sizeof(float));
-    assert_memory_equal(one.rgb, all.rgb, 3 * 40 * 24 * sizeof(float));
+    assert_memory_equal(one.rgb, three.rgb, ROOM_BYTES);
+    assert_memory_equal(one.rgb, all.rgb, ROOM_BYTES);
     image_finish(&one);
     image_finish(&three);
     image_finish(&all);

@@ -136,7 +136,7 @@ static void floats_survive_bit_for_bit(void **state)
         assert_int_equal(image_read(&logger, in_folder(name), &back), FG_OK);
         assert_int_equal(back.width, img.width);
         assert_int_equal(back.height, img.height);
-        assert_memory_equal(back.rgb, img.rgb, 3 * 7 * 37 * sizeof(float));
+        assert_memory_equal(back.rgb, img.rgb, (size_t) (3 * 7 * 37) * sizeof(float));
         image_finish(&img);
         image_finish(&back);
     }

@@ -26,17 +26,17 @@ FG_API FG_NODISCARD fg_status ag_rays_create(const ag_rays_desc *desc, ag_rays *
 FG_API void ag_rays_destroy(ag_rays *rays); // accepts NULL
 
 typedef struct ag_hit {
-    float distance;  // in units of |direction|
-    int instance;    // of the scene
-    uint32_t triangle; // within the primitive
+    float distance;       // in units of |direction|
+    int instance;         // of the scene
+    uint32_t triangle;    // within the primitive
     float barycentric[2]; // of vertices 1 and 2
-    float position[3]; // relative to `origin`, recomputed from the triangle, not along the ray
-    float face_normal[3];    // unit, by winding (mirroring accounted for)
+    float position[3];    // relative to `origin`, recomputed from the triangle, not along the ray
+    float face_normal[3]; // unit, by winding (mirroring accounted for)
     float normal[3]; // unit, interpolated from the vertices; a front-facing viewer sees it as it
                      // is, one behind the face sees its opposite
     float uv[2][2];
     float color[4];
-    bool front;      // the ray came from the side that face_normal points to
+    bool front; // the ray came from the side that face_normal points to
 } ag_hit;
 
 // Nearest hit in (tnear, tfar); false if none. Positions are relative to `origin`.
@@ -47,10 +47,10 @@ FG_API bool ag_rays_nearest(const ag_rays *rays, const float from[3], const floa
 FG_API bool ag_rays_blocked(const ag_rays *rays, const float from[3], const float direction[3],
                             float tnear, float tfar);
 
-// All hits in (tnear, tfar), nearest first, at most `max`; for techniques that leave visibility
+// All hits in (0, tfar), nearest first, at most `max`; for techniques that leave visibility
 // out. Returns how many there are, which may exceed `max`.
 FG_API int ag_rays_all(const ag_rays *rays, const float from[3], const float direction[3],
-                       float tnear, float tfar, ag_hit *hits, int max);
+                       float tfar, ag_hit *hits, int max);
 
 // A start for a ray that leaves `position` on the side of `side_normal`, moved just far
 // enough off the surface that it cannot meet it again.
