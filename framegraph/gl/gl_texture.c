@@ -114,20 +114,25 @@ static void allocate(GLuint name, const fg_tex_desc *desc)
     }
 }
 
-// Ends a creation: the driver says only through glGetError that it had no memory.
-static fg_status created(gl_device *d, const char *label, const char *what, int before)
+// Ends a creation: the driver says only through glGetError that it had no memory. What was
+// refused is deleted, the rest gets its label.
+static fg_status created(gl_device *d, GLenum kind, const char *label, const char *what, int before,
+                         uint32_t *object)
 {
     const bool no_memory = gl_drain_errors(d);
     d->allocating = false;
-    if (no_memory) {
-        fg_logf(d->log, FG_LOG_ERROR, "%s: the driver has no memory for %s", label, what);
-        return FG_ERR_MEMORY;
+    if (!no_memory && d->errors == before) {
+        gl_label(d, kind, *object, label);
+        return FG_OK;
     }
-    if (d->errors != before) {
-        fg_logf(d->log, FG_LOG_ERROR, "%s: the driver refused %s", label, what);
-        return FG_ERR_UNSUPPORTED;
-    }
-    return FG_OK;
+    fg_logf(d->log, FG_LOG_ERROR, "%s: the driver %s %s", label,
+            no_memory ? "has no memory for" : "refused", what);
+    if (kind == GL_BUFFER)
+        glDeleteBuffers(1, object);
+    else
+        glDeleteTextures(1, object);
+    *object = 0;
+    return no_memory ? FG_ERR_MEMORY : FG_ERR_UNSUPPORTED;
 }
 
 fg_status gl_texture_create(fg_device *dev, const char *label, const fg_tex_desc *desc,
@@ -148,14 +153,7 @@ fg_status gl_texture_create(fg_device *dev, const char *label, const fg_tex_desc
     snprintf(what, sizeof what, "a texture %s %dx%d, %d mips, %d layers",
              fg_format_get(desc->format)->name, desc->width, desc->height, desc->mips,
              desc->depth > 0 ? desc->depth : desc->layers);
-    status = created(d, label, what, before);
-    if (status) {
-        glDeleteTextures(1, object);
-        *object = 0;
-        return status;
-    }
-    gl_label(d, GL_TEXTURE, *object, label);
-    return FG_OK;
+    return created(d, GL_TEXTURE, label, what, before, object);
 }
 
 fg_status gl_view_create(fg_device *dev, const char *label, uint32_t of, const fg_tex_desc *desc,
@@ -173,14 +171,7 @@ fg_status gl_view_create(fg_device *dev, const char *label, uint32_t of, const f
     glTextureView(*object, target, of, gl_format_get(desc->format)->internal, 0,
                   (GLuint) desc->mips, 0, layers);
     snprintf(what, sizeof what, "a view %s of texture %u", fg_format_get(desc->format)->name, of);
-    const fg_status status = created(d, label, what, before);
-    if (status) {
-        glDeleteTextures(1, object);
-        *object = 0;
-        return status;
-    }
-    gl_label(d, GL_TEXTURE, *object, label);
-    return FG_OK;
+    return created(d, GL_TEXTURE, label, what, before, object);
 }
 
 void gl_texture_destroy(fg_device *dev, uint32_t object)
@@ -209,14 +200,7 @@ fg_status gl_buffer_create(fg_device *dev, const char *label, uint64_t size, uin
     // DYNAMIC_STORAGE: callbacks may upload with glNamedBufferSubData.
     glNamedBufferStorage(*object, (GLsizeiptr) size, NULL, GL_DYNAMIC_STORAGE_BIT);
     snprintf(what, sizeof what, "a buffer of %llu bytes", (unsigned long long) size);
-    const fg_status status = created(d, label, what, before);
-    if (status) {
-        glDeleteBuffers(1, object);
-        *object = 0;
-        return status;
-    }
-    gl_label(d, GL_BUFFER, *object, label);
-    return FG_OK;
+    return created(d, GL_BUFFER, label, what, before, object);
 }
 
 void gl_buffer_destroy(fg_device *dev, uint32_t object)

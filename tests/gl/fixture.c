@@ -74,6 +74,36 @@ fg_graph *open_graph(fixture *f, unsigned debug, uint64_t seed)
     return g;
 }
 
+fg_status use_program(const fg_run *run, const fg_gl_program_desc *desc)
+{
+    const uint32_t program = fg_gl_program(fg_run_device(run), desc);
+    glUseProgram(program);
+    return program ? FG_OK : FG_ERR_SHADER;
+}
+
+static int framebuffers;
+static PFNGLDELETEFRAMEBUFFERSPROC real_delete;
+
+static void GLAPIENTRY counting_delete(GLsizei n, const GLuint *names)
+{
+    framebuffers += n;
+    real_delete(n, names);
+}
+
+void count_deleted_framebuffers(void)
+{
+    glDeleteFramebuffers(0, NULL); // libepoxy's pointer finds the real one in its first call
+    real_delete = epoxy_glDeleteFramebuffers;
+    epoxy_glDeleteFramebuffers = counting_delete;
+    framebuffers = 0;
+}
+
+int deleted_framebuffers(void)
+{
+    epoxy_glDeleteFramebuffers = real_delete;
+    return framebuffers;
+}
+
 void read_floats(uint32_t texture, float *to, int count)
 {
     assert_int_not_equal(texture, 0);

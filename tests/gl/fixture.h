@@ -37,10 +37,17 @@ void log_takes(fixture *f, const char *text);
 // A graph on the fixture's device.
 fg_graph *open_graph(fixture *f, unsigned debug, uint64_t seed);
 
+// Makes the program current; FG_ERR_SHADER if it does not build.
+fg_status use_program(const fg_run *run, const fg_gl_program_desc *desc);
+
+// Framebuffers deleted between the two calls.
+void count_deleted_framebuffers(void);
+int deleted_framebuffers(void);
+
 // Mip 0 of a one-channel float texture.
 void read_floats(uint32_t texture, float *to, int count);
 
-// Copies what the environment's TMPDIR offers for a scratch folder; it is new and empty.
+// A new and empty folder below TMPDIR.
 void make_folder(char path[256]);
 void remove_folder(const char *path);
 void write_text(const char *folder, const char *name, const char *text);

@@ -37,18 +37,11 @@ static float cell(int i)
     return cell_of(i, W);
 }
 
-static fg_status use(const fg_run *run, const fg_gl_program_desc *desc)
-{
-    const uint32_t program = fg_gl_program(fg_run_device(run), desc);
-    glUseProgram(program);
-    return program ? FG_OK : FG_ERR_SHADER;
-}
-
 static fg_status draw_cells(const fg_run *run, void *user)
 {
     const pass *p = user;
     const fg_gl_program_desc desc = { { &fullscreen_vert, &cells_frag }, p->defines };
-    const fg_status status = use(run, &desc);
+    const fg_status status = use_program(run, &desc);
     fg_gl_fullscreen(run);
     return status;
 }
@@ -57,7 +50,7 @@ static fg_status store_cells(const fg_run *run, void *user)
 {
     const pass *p = user;
     const fg_gl_program_desc desc = { { &cells_comp }, p->defines };
-    const fg_status status = use(run, &desc);
+    const fg_status status = use_program(run, &desc);
     int size[3];
     fg_run_size(run, p->to, 0, size);
     fg_gl_image(run, 0, p->to, 0, GL_WRITE_ONLY, FG_R32F);
@@ -265,7 +258,7 @@ static void read_only_depth_is_tested_and_not_written(void **state)
 static fg_status write_arguments(const fg_run *run, void *user)
 {
     const pass *p = user;
-    const fg_status status = use(run, &(fg_gl_program_desc){ { &arguments_comp } });
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &arguments_comp } });
     fg_gl_sample(run, 0, p->from, FG_GL_NEAREST);
     fg_gl_storage(run, 0, p->to);
     glDispatchCompute(1, 1, 1);
@@ -275,7 +268,7 @@ static fg_status write_arguments(const fg_run *run, void *user)
 static fg_status count_indirectly(const fg_run *run, void *user)
 {
     const pass *p = user;
-    const fg_status status = use(run, &(fg_gl_program_desc){ { &count_comp } });
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &count_comp } });
     fg_gl_storage(run, 0, p->to);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, fg_run_object(run, p->args));
     glDispatchComputeIndirect(0);
@@ -323,7 +316,7 @@ static void image_to_sampler_to_indirect_dispatch_is_ordered(void **state)
 static fg_status store_mip(const fg_run *run, void *user)
 {
     const pass *p = user;
-    const fg_status status = use(run, &(fg_gl_program_desc){ { &mip_comp }, p->defines });
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &mip_comp }, p->defines });
     int size[3];
     fg_run_size(run, p->to, p->mip, size);
     fg_gl_sample(run, 0, p->from, FG_GL_NEAREST);
@@ -373,7 +366,7 @@ static fg_status draw_layers(const fg_run *run, void *user)
 {
     (void) user;
     const fg_gl_program_desc desc = { { &layers_vert, &layers_geom, &layers_frag } };
-    const fg_status status = use(run, &desc);
+    const fg_status status = use_program(run, &desc);
     glDrawArraysInstanced(GL_TRIANGLES, 0, 3, 2);
     return status;
 }
@@ -430,7 +423,7 @@ static void one_layer_is_attached_alone(void **state)
 static fg_status store_layers(const fg_run *run, void *user)
 {
     const pass *p = user;
-    const fg_status status = use(run, &(fg_gl_program_desc){ { &layers_comp } });
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &layers_comp } });
     fg_gl_image(run, 0, p->to, 0, GL_WRITE_ONLY, FG_R32F);
     glDispatchCompute(2, 2, 3);
     return status;
@@ -465,7 +458,7 @@ static void image_of_an_array_has_all_layers(void **state)
 static fg_status compare_depth(const fg_run *run, void *user)
 {
     const pass *p = user;
-    const fg_status status = use(run, &(fg_gl_program_desc){ { &shadow_comp } });
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &shadow_comp } });
     fg_gl_sample(run, 0, p->from, FG_GL_SHADOW);
     fg_gl_storage(run, 0, p->to);
     glDispatchCompute(1, 1, 1);
@@ -508,7 +501,7 @@ static fg_status add_one(const fg_run *run, void *user)
 {
     const pass *p = user;
     glCopyNamedBufferSubData(fg_run_object(run, p->from), fg_run_object(run, p->to), 0, 0, 4);
-    const fg_status status = use(run, &(fg_gl_program_desc){ { &count_comp } });
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &count_comp } });
     fg_gl_storage(run, 0, p->to);
     glDispatchCompute(1, 1, 1);
     return status;
@@ -550,21 +543,11 @@ static uint32_t host_texture(void)
     return texture;
 }
 
-static int framebuffers_deleted;
-static PFNGLDELETEFRAMEBUFFERSPROC real_delete;
-
-static void GLAPIENTRY counting_delete(GLsizei n, const GLuint *names)
-{
-    framebuffers_deleted += n;
-    real_delete(n, names);
-}
-
 // Names come again on some drivers: a framebuffer that outlives its texture would be found.
 static void forgotten_import_takes_its_framebuffer_along(void **state)
 {
     fixture *f = *state;
     float got[W * H];
-    glDeleteFramebuffers(0, NULL); // resolves the entry point
     fg_graph *g = open_graph(f, 0, 0);
     for (int round = 0; round < 3; ++round) {
         pass draw = { 0 };
@@ -583,12 +566,9 @@ static void forgotten_import_takes_its_framebuffer_along(void **state)
         read_floats(texture, got, W * H);
         for (int i = 0; i < W * H; ++i)
             assert_true(got[i] == cell(i));
-        real_delete = epoxy_glDeleteFramebuffers;
-        epoxy_glDeleteFramebuffers = counting_delete;
-        framebuffers_deleted = 0;
+        count_deleted_framebuffers();
         fg_gl_forget_texture(f->device, texture);
-        epoxy_glDeleteFramebuffers = real_delete;
-        assert_int_equal(framebuffers_deleted, 1);
+        assert_int_equal(deleted_framebuffers(), 1);
         glDeleteTextures(1, &texture);
     }
     fg_graph_destroy(g);

@@ -460,20 +460,10 @@ static void view_of_another_class_is_refused(void **state)
 
 // ---- framebuffers ---------------------------------------------------------------
 
-static int framebuffers_deleted;
-static PFNGLDELETEFRAMEBUFFERSPROC real_delete;
-
-static void GLAPIENTRY counting_delete(GLsizei n, const GLuint *names)
-{
-    framebuffers_deleted += n;
-    real_delete(n, names);
-}
-
 static void framebuffer_goes_with_its_texture(void **state)
 {
     // Names come again on some drivers: a framebuffer of the old texture must not be found.
     fixture *f = *state;
-    glDeleteFramebuffers(0, NULL); // resolves the entry point
     float got[64];
     fg_tex_desc desc = shapes[0].desc;
     desc.format = FG_R32F;
@@ -483,12 +473,9 @@ static void framebuffer_goes_with_its_texture(void **state)
         glClearBufferfv(GL_COLOR, 0, (const float[4]){ (float) round });
         read_floats(object, got, 64);
         assert_true(got[0] == (float) round && got[63] == (float) round);
-        real_delete = epoxy_glDeleteFramebuffers;
-        epoxy_glDeleteFramebuffers = counting_delete;
-        framebuffers_deleted = 0;
+        count_deleted_framebuffers();
         f->device->ops->texture_destroy(f->device, object);
-        epoxy_glDeleteFramebuffers = real_delete;
-        assert_int_equal(framebuffers_deleted, 1);
+        assert_int_equal(deleted_framebuffers(), 1);
     }
 }
 

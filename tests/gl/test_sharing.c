@@ -25,17 +25,10 @@ typedef struct chains {
     link sum;
 } chains;
 
-static fg_status use(const fg_run *run, const fg_gl_program_desc *desc)
-{
-    const uint32_t program = fg_gl_program(fg_run_device(run), desc);
-    glUseProgram(program);
-    return program ? FG_OK : FG_ERR_SHADER;
-}
-
 static fg_status run_first(const fg_run *run, void *user)
 {
     const link *l = user;
-    const fg_status status = use(run, &(fg_gl_program_desc){ { &cells_comp }, "SEED=5" });
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &cells_comp }, "SEED=5" });
     fg_gl_image(run, 0, l->to, 0, GL_WRITE_ONLY, FG_R32F);
     fg_gl_dispatch_2d(W, H, 8, 8);
     return status;
@@ -49,7 +42,7 @@ static fg_status run_link(const fg_run *run, void *user)
     const fg_gl_program_desc raster = { { &fullscreen_vert, &step_frag },
                                         defines[l->from_uint][l->to_uint] };
     const fg_gl_program_desc compute = { { &step_comp }, defines[l->from_uint][l->to_uint] };
-    const fg_status status = use(run, l->raster ? &raster : &compute);
+    const fg_status status = use_program(run, l->raster ? &raster : &compute);
     fg_gl_sample(run, 0, l->from, FG_GL_NEAREST);
     if (l->raster) {
         fg_gl_fullscreen(run);
@@ -63,7 +56,7 @@ static fg_status run_link(const fg_run *run, void *user)
 static fg_status run_sum(const fg_run *run, void *user)
 {
     const link *l = user;
-    const fg_status status = use(run, &(fg_gl_program_desc){ { &sum_comp } });
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &sum_comp } });
     fg_gl_sample(run, 0, l->from, FG_GL_NEAREST);
     fg_gl_sample(run, 1, l->other, FG_GL_NEAREST);
     fg_gl_image(run, 0, l->to, 0, GL_WRITE_ONLY, FG_R32F);
