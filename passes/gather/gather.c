@@ -17,7 +17,9 @@ static int suitable_block(fg_device *device)
 
 static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
 {
-    static const char *const defines[3][3] = {
+    static const char *const defines[4][3] = {
+        { "BLOCK_X=1;BLOCK_Y=1;CLAMP=3", "BLOCK_X=2;BLOCK_Y=2;CLAMP=3",
+          "BLOCK_X=4;BLOCK_Y=4;CLAMP=3" },
         { "BLOCK_X=1;BLOCK_Y=1;CLAMP=1", "BLOCK_X=2;BLOCK_Y=2;CLAMP=1",
           "BLOCK_X=4;BLOCK_Y=4;CLAMP=1" },
         { "BLOCK_X=1;BLOCK_Y=1;CLAMP=0", "BLOCK_X=2;BLOCK_Y=2;CLAMP=0",
@@ -47,11 +49,14 @@ static fg_status run_gather(const fg_run *run, void *user)
     fg_gl_sample(run, 1, pass->normal, FG_GL_NEAREST);
     fg_gl_storage(run, 0, pass->vpls);
     fg_gl_storage(run, 1, pass->count);
-    fg_gl_image(run, 0, pass->out, 0, GL_WRITE_ONLY, FG_RGBA32F);
-    glProgramUniform1f(program, 0, pass->clamp_d2);
+    fg_gl_image(run, 0, pass->out, 0, GL_READ_WRITE, FG_RGBA32F);
+    if (pass->clamp == AG_CLAMP_CONSTANT)
+        glProgramUniform1f(program, 0, pass->clamp_d2);
     int size[3];
     fg_run_size(run, pass->out, 0, size);
     const int block = pass->block ? pass->block : suitable_block(device);
+    if (pass->clamp == AG_CLAMP_FOOTPRINT)
+        glProgramUniform1i(program, 1, block);
     const int edge = block == 16 ? 32 : block == 4 ? 16 : 8; // pixels of one work group
     glUseProgram(program);
     fg_gl_dispatch_2d(size[0], size[1], edge, edge);

@@ -3,11 +3,13 @@
 // Irradiance of every pixel from all VPLs, without visibility.
 // In:  position RGBA32F, normal RGBA16F; ag_vpl[], count
 // Out: E / pi RGBA32F, W/(m^2 sr); a 1
-// BLOCK_X, BLOCK_Y: receivers of one invocation. CLAMP: 0 none, 1 disc, 2 constant.
+// BLOCK_X, BLOCK_Y: receivers of one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint.
 //
 // E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
 // Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5.
 //         Departs from it: eq. 5 has A_j on top of the fraction, which makes watts of W/m^2.
+//         CLAMP 3: near a VPL the exact form factor of its patch, by Lambert's formula for
+//         polygons; a disc seen from beside its rim is far off.
 #include "passes/include/pass/view_shared.h"
 #include "passes/include/pass/vpl_shared.h"
 
@@ -16,7 +18,7 @@
 #define BLOCK_Y 2
 #endif
 #ifndef CLAMP
-#define CLAMP 1
+#define CLAMP 3
 #endif
 
 const int block = BLOCK_X * BLOCK_Y;
@@ -36,8 +38,10 @@ layout(std430, binding = 1) readonly buffer count_buffer
 {
     uvec4 count;
 };
-layout(location = 0) uniform float clamp_d2; // m^2, CLAMP 2
-layout(binding = 0, rgba32f) writeonly uniform image2D indirect;
+#if CLAMP == 2
+layout(location = 0) uniform float clamp_d2; // m^2
+#endif
+layout(binding = 0, rgba32f) uniform image2D indirect;
 
 // Receivers of one invocation lie `group` pixels apart, so that neighbours load neighbours.
 ivec2 receiver(int i)
@@ -45,6 +49,82 @@ ivec2 receiver(int i)
     ivec2 base = ivec2(gl_WorkGroupID.xy) * group * ivec2(BLOCK_X, BLOCK_Y);
     return base + ivec2(gl_LocalInvocationID.xy) + group * ivec2(i % BLOCK_X, i / BLOCK_X);
 }
+
+#if CLAMP == 3
+// A VPL is near within so many patch areas of squared distance: there the disc is off by up to
+// A_j / (pi d^2) = 2 % and falling. One that is seen flatter than a half float's normal can tell is in
+// the receiver's own plane and lights nothing.
+const float near_areas = 16.0;
+const float flat_slope2 = 1e-6;
+layout(location = 1) uniform int block_size; // block, but not for the compiler to unroll
+
+// 2 pi times the part of an edge in the form factor: the angle it spans, by how upright it stands.
+float edge_integral(vec3 a, vec3 b, vec3 n)
+{
+    vec3 c = cross(a, b);
+    float s = length(c);
+    return s > 0.0 ? atan(s, dot(a, b)) * dot(c, n) / s : 0.0;
+}
+
+// Form factor from the surface element at the origin with normal `n` to the patch of a VPL at `d`,
+// cut off at the element's horizon. Lambert 1760.
+float patch_form_factor(vec3 d, vec3 n, int j, float edge)
+{
+    vec3 m = vpls[j].normal.xyz, t, b;
+    vpl_frame(m, t, b);
+    vec2 eu = unpackHalf2x16(floatBitsToUint(vpls[j].normal.w)) * (0.5 * edge);
+    vec2 ev = unpackHalf2x16(floatBitsToUint(vpls[j].flux.w)) * (0.5 * edge);
+    vec3 u = t * eu.x + b * eu.y, v = t * ev.x + b * ev.y;
+    vec3 at = d - u - v, leaving = vec3(0.0), entering = vec3(0.0);
+    float sum = 0.0, height = dot(n, at);
+    for (int k = 0; k < 4; k++) {
+        vec3 next = k == 0 ? d + u - v : k == 1 ? d + u + v : k == 2 ? d - u + v : d - u - v;
+        float next_height = dot(n, next);
+        vec3 from = at, to = next;
+        if (height * next_height < 0.0) { // one end below the horizon
+            vec3 cut = mix(at, next, height / (height - next_height));
+            if (height < 0.0)
+                from = entering = cut;
+            else
+                to = leaving = cut;
+        }
+        if (max(height, next_height) > 0.0)
+            sum += edge_integral(from, to, n);
+        at = next;
+        height = next_height;
+    }
+    sum += edge_integral(leaving, entering, n);
+    return abs(sum) / (2.0 * pi);
+}
+
+// Adds to the image what the exact form factors of `near` VPLs from `start` on have over the disc's.
+// Rare and long, so it stands aside of the loop over all VPLs and fetches its receivers anew.
+void correct_near(int start, uvec2 near, float unit)
+{
+    for (; (near.x | near.y) != 0u; near = near.x != 0u ? uvec2(near.x & (near.x - 1u), near.y)
+                                                        : uvec2(0u, near.y & (near.y - 1u))) {
+        int j = start + (near.x != 0u ? findLSB(near.x) : 32 + findLSB(near.y));
+        vec3 q = vpls[j].position_area.xyz * unit;
+        float area = vpls[j].position_area.w * unit * unit;
+        for (int i = 0; i < block_size; i++) {
+            ivec2 at = min(receiver(i), view.size.xy - 1);
+            vec3 d = q - texelFetch(position_map, at, 0).xyz * unit;
+            float d2 = dot(d, d);
+            float cos_j = -dot(vpls[j].normal.xyz, d);
+            if (cos_j <= 0.0 || cos_j * cos_j < flat_slope2 * d2 || d2 >= near_areas * area)
+                continue;
+            vec3 n = texelFetch(normal_map, at, 0).xyz;
+            n /= max(length(n), 1e-6);
+            float disc = max(dot(n, d), 0.0) * cos_j / max(d2 * (pi * d2 + area), 1e-36);
+            float share = patch_form_factor(d, n, j, sqrt(area)) / area - disc;
+            if (all(lessThan(receiver(i), view.size.xy))) {
+                vec4 old = imageLoad(indirect, at);
+                imageStore(indirect, at, old + vec4(vpls[j].flux.rgb * share, 0.0));
+            }
+        }
+    }
+}
+#endif
 
 void main()
 {
@@ -58,19 +138,31 @@ void main()
         n[i] = texelFetch(normal_map, at, 0).xyz;
         n[i] /= max(length(n[i]), 1e-6);
         sum[i] = vec3(0.0);
+#if CLAMP == 3
+        if (all(lessThan(receiver(i), view.size.xy)))
+            imageStore(indirect, receiver(i), vec4(0.0));
+#endif
     }
     int total = int(count.x);
+#if CLAMP == 2
     float least = pi * clamp_d2 * unit * unit;
+#endif
     for (int start = 0; start < total; start += tile) {
         vec3 part[block];
         for (int i = 0; i < block; i++)
             part[i] = vec3(0.0);
+#if CLAMP == 3
+        uvec2 near = uvec2(0u);
+#endif
         int end = min(start + tile, total);
         for (int j = start; j < end; j++) {
             vec3 q = vpls[j].position_area.xyz * unit;
             vec3 m = vpls[j].normal.xyz;
             vec3 flux = vpls[j].flux.rgb;
             float area = vpls[j].position_area.w * unit * unit;
+#if CLAMP == 3
+            float nearest = 1e30;
+#endif
             for (int i = 0; i < block; i++) {
                 vec3 d = q - p[i];
                 float d2 = dot(d, d);
@@ -78,21 +170,35 @@ void main()
                 float cos_j = max(-dot(m, d), 0.0);    // times |d|
 #if CLAMP == 0
                 float spread = pi * d2;
-#elif CLAMP == 1
-                float spread = pi * d2 + area;
-#else
+#elif CLAMP == 2
                 float spread = max(pi * d2, least);
+#else
+                float spread = pi * d2 + area;
 #endif
                 // d = 0 gives 0: both cosines are.
                 part[i] += flux * (cos_i * cos_j / max(d2 * spread, 1e-36));
+#if CLAMP == 3
+                nearest = min(nearest, cos_j * cos_j > flat_slope2 * d2 ? d2 : 1e30);
+#endif
             }
+#if CLAMP == 3
+            if (nearest < near_areas * area)
+                near[(j - start) >> 5] |= 1u << ((j - start) & 31);
+#endif
         }
         for (int i = 0; i < block; i++)
             sum[i] += part[i];
+#if CLAMP == 3
+        correct_near(start, near, unit);
+#endif
     }
     for (int i = 0; i < block; i++) {
         ivec2 at = receiver(i);
-        if (all(lessThan(at, view.size.xy)))
-            imageStore(indirect, at, vec4(min(sum[i] * (unit * unit / pi), vec3(3.0e38)), 1.0));
+        if (any(greaterThanEqual(at, view.size.xy)))
+            continue;
+#if CLAMP == 3
+        sum[i] = max(sum[i] + imageLoad(indirect, at).rgb, vec3(0.0));
+#endif
+        imageStore(indirect, at, vec4(min(sum[i] * (unit * unit / pi), vec3(3.0e38)), 1.0));
     }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Reflective shadow map: what a light sees, and what each texel of it receives.
 // Out: position RGBA32F: xyz render space; w area A_j of the texel's footprint, m^2, 0: nothing
-//      normal RGBA16F: xyz unit, shading normal turned to the light; w 1, 0: nothing
+//      normal RGBA16F: xyz unit, the face's, turned to the light; w 1, 0: nothing
 //      flux RGBA32F: rgb reflected flux rho_j Phi_j, W; a solid angle, sr (directional: m^2)
 // Source: Nichols, Shopf, Wyman 2009, sec. 3.2; its eq. 2 and 3 with the texel's own solid angle.
 //         EQUAL: with eq. 4's, the same for every texel.
@@ -70,13 +70,16 @@ void main()
         flux = texel_flux(f, light, ivec2(gl_FragCoord.xy));
         footprint_area = flux.a * from_light * from_light; // eq. 3
     }
-    // Eq. 3 lacks the cosine; 1e-3 keeps the footprint of a silhouette finite.
-    float c = dot(s.normal, normalize(to_light));
-    bool lit = c > 0.0 && from_light > 0.0;
-    vec3 reflected = lit ? surface_albedo(s) * flux.rgb : vec3(0.0);
-    float area = lit ? footprint_area / max(c, 1e-3) : 0.0;
+    // Eq. 3 lacks the cosine; 1e-3 keeps the footprint of a silhouette finite. The footprint lies on
+    // the face; what it receives goes by the shading normal, E A_j = Phi cos_shading / cos_face.
+    vec3 l = normalize(to_light);
+    float cos_face = max(dot(s.face_normal, l), 1e-3);
+    float cos_shading = dot(s.normal, l);
+    bool lit = cos_shading > 0.0 && dot(s.face_normal, l) > 0.0 && from_light > 0.0;
+    vec3 reflected = lit ? surface_albedo(s) * flux.rgb * (cos_shading / cos_face) : vec3(0.0);
+    float area = lit ? footprint_area / cos_face : 0.0;
 
     out_position = vec4(position, area);
-    out_normal = vec4(s.normal, 1.0);
+    out_normal = vec4(s.face_normal, 1.0);
     out_flux = vec4(reflected, flux.a);
 }

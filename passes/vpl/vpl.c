@@ -25,6 +25,7 @@ static fg_status run_build(const fg_run *run, void *user)
     fg_gl_sample(run, 2, pass->flux, FG_GL_NEAREST);
     fg_gl_storage(run, 0, pass->blocks);
     fg_gl_storage(run, 1, pass->groups);
+    fg_gl_storage(run, 2, pass->faces);
     glProgramUniform4i(program, 0, pass->grid, pass->block, pass->capacity,
                        pass->pattern == AG_VPL_STRATIFIED);
     glProgramUniform1ui(program, 1, pass->seed);
@@ -66,7 +67,10 @@ static void declare_passes(ag_vpl_pass *pass, fg_graph *g, const char *prefix)
         {
             .name = build,
             .kind = FG_KIND_COMPUTE,
-            .reads = { { pass->position }, { pass->normal }, { pass->flux } },
+            .reads = { { pass->position },
+                       { pass->normal },
+                       { pass->flux },
+                       { pass->faces, FG_USE_STORAGE } },
             .writes = { { pass->blocks, FG_USE_STORAGE, FG_LOAD_DISCARD },
                         { pass->groups, FG_USE_STORAGE, FG_LOAD_DISCARD } },
             .run = run_build,
@@ -92,6 +96,7 @@ void ag_vpl_declare(ag_vpl_pass *pass, fg_graph *g, const ag_rsm_pass *rsm, cons
         .position = rsm->position,
         .normal = rsm->normal,
         .flux = rsm->flux,
+        .faces = rsm->scene.faces,
         .pattern = desc->pattern,
         .seed = desc->seed,
         .grid = grid,

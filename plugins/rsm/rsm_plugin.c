@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 static const char *const pattern_names[] = { "all", "regular", "stratified", NULL };
-static const char *const clamp_names[] = { "disc", "none", "constant", NULL };
+static const char *const clamp_names[] = { "footprint", "disc", "none", "constant", NULL };
 static const char *const solid_angle_names[] = { "exact", "equal", NULL };
 static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, 16384, NAN };
 
@@ -41,9 +41,10 @@ static const gi_param params[] = {
     [CLAMP] = { .name = "clamp",
                 .type = GI_ENUM,
                 .unit = "1",
-                .def = AG_CLAMP_DISC,
+                .def = AG_CLAMP_FOOTPRINT,
                 .choices = clamp_names,
-                .help = "what bounds a near VPL: its own area, nothing, or clamp_d2" },
+                .help = "what bounds a near VPL: its patch, exactly; a disc of its area; nothing; "
+                        "clamp_d2" },
     [CLAMP_D2] = { .name = "clamp_d2",
                    .type = GI_FLOAT,
                    .unit = "m^2",

@@ -14,7 +14,7 @@ FG_BEGIN
 //
 // Shapes: layers = faces of all lights, edge = `size`:
 //         position RGBA32F: xyz render space; w area A_j of the texel's footprint, m^2, 0: no light
-//         normal RGBA16F: xyz unit, shading normal turned to the light; w 1, 0: nothing here
+//         normal RGBA16F: xyz unit, the face's, turned to the light; w 1, 0: nothing here
 //         flux RGBA32F: rgb reflected flux rho_j Phi_j, W; a solid angle of the texel, sr
 //         (directional: its cross-section, m^2)
 // Left out where the scene has no light or no geometry.

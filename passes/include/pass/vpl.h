@@ -21,7 +21,7 @@ typedef enum ag_vpl_pattern {
 // Shapes: vpls: ag_vpl[capacity] (pass/vpl_shared.h), valid ones first, in the order of faces and
 //         rows; count: uvec4, x valid ones, y blocks.
 typedef struct ag_vpl_pass {
-    fg_res position, normal, flux, blocks, groups;
+    fg_res position, normal, flux, faces, blocks, groups;
     fg_res vpls, count;
     int capacity;
     int grid, block; // blocks along a face's edge; texels along a block's edge
