@@ -56,6 +56,11 @@ ivec2 receiver(int i)
 // the receiver's own plane and lights nothing.
 const float near_areas = 16.0;
 const float flat_slope2 = 1e-6;
+bool patch_is_near(float d2, float cos_j, float area) // cos_j: times |d|
+{
+    return d2 < near_areas * area && cos_j * cos_j > flat_slope2 * d2;
+}
+
 layout(location = 1) uniform int block_size; // block, but not for the compiler to unroll
 
 // 2 pi times the part of an edge in the form factor: the angle it spans, by how upright it stands.
@@ -97,8 +102,8 @@ float patch_form_factor(vec3 d, vec3 n, int j, float edge)
     return abs(sum) / (2.0 * pi);
 }
 
-// Adds to the image what the exact form factors of `near` VPLs from `start` on have over the disc's.
-// Rare and long, so it stands aside of the loop over all VPLs and fetches its receivers anew.
+// Adds `near` ones of the VPLs from `start` on to the image. Rare and long, so it stands aside of the
+// loop over all VPLs and fetches its receivers anew.
 void correct_near(int start, uvec2 near, float unit)
 {
     for (; (near.x | near.y) != 0u; near = near.x != 0u ? uvec2(near.x & (near.x - 1u), near.y)
@@ -110,13 +115,16 @@ void correct_near(int start, uvec2 near, float unit)
             ivec2 at = min(receiver(i), view.size.xy - 1);
             vec3 d = q - texelFetch(position_map, at, 0).xyz * unit;
             float d2 = dot(d, d);
-            float cos_j = -dot(vpls[j].normal.xyz, d);
-            if (cos_j <= 0.0 || cos_j * cos_j < flat_slope2 * d2 || d2 >= near_areas * area)
+            float cos_j = max(-dot(vpls[j].normal.xyz, d), 0.0);
+            if (!patch_is_near(d2, cos_j, area))
                 continue;
             vec3 n = texelFetch(normal_map, at, 0).xyz;
             n /= max(length(n), 1e-6);
-            float disc = max(dot(n, d), 0.0) * cos_j / max(d2 * (pi * d2 + area), 1e-36);
-            float share = patch_form_factor(d, n, j, sqrt(area)) / area - disc;
+            // Where surfaces meet, a texel that sees both is given to one, and the other ends up to a
+            // texel short of the corner. Half a texel above the patch's plane that hardly shows.
+            float edge = sqrt(area);
+            d -= vpls[j].normal.xyz * max(0.5 * edge - cos_j, 0.0);
+            float share = patch_form_factor(d, n, j, edge) / area;
             if (all(lessThan(receiver(i), view.size.xy))) {
                 vec4 old = imageLoad(indirect, at);
                 imageStore(indirect, at, old + vec4(vpls[j].flux.rgb * share, 0.0));
@@ -161,7 +169,7 @@ void main()
             vec3 flux = vpls[j].flux.rgb;
             float area = vpls[j].position_area.w * unit * unit;
 #if CLAMP == 3
-            float nearest = 1e30;
+            bool any_near = false;
 #endif
             for (int i = 0; i < block; i++) {
                 vec3 d = q - p[i];
@@ -176,13 +184,16 @@ void main()
                 float spread = pi * d2 + area;
 #endif
                 // d = 0 gives 0: both cosines are.
-                part[i] += flux * (cos_i * cos_j / max(d2 * spread, 1e-36));
+                float share = cos_i * cos_j / max(d2 * spread, 1e-36);
 #if CLAMP == 3
-                nearest = min(nearest, cos_j * cos_j > flat_slope2 * d2 ? d2 : 1e30);
+                bool is_near = patch_is_near(d2, cos_j, area);
+                share = is_near ? 0.0 : share;
+                any_near = any_near || is_near;
 #endif
+                part[i] += flux * share;
             }
 #if CLAMP == 3
-            if (nearest < near_areas * area)
+            if (any_near)
                 near[(j - start) >> 5] |= 1u << ((j - start) & 31);
 #endif
         }
@@ -197,7 +208,7 @@ void main()
         if (any(greaterThanEqual(at, view.size.xy)))
             continue;
 #if CLAMP == 3
-        sum[i] = max(sum[i] + imageLoad(indirect, at).rgb, vec3(0.0));
+        sum[i] += imageLoad(indirect, at).rgb;
 #endif
         imageStore(indirect, at, vec4(min(sum[i] * (unit * unit / pi), vec3(3.0e38)), 1.0));
     }

@@ -372,7 +372,7 @@ static void receivers_of_one_invocation_do_not_matter(void **state)
     capture c[] = { { .resource = "rsm.vpls" },       { .resource = "rsm.count" },
                     { .resource = "rsm.indirect" },   { .resource = "gbuffer.position" },
                     { .resource = "gbuffer.normal" }, { 0 } };
-    const char *const settings[] = { "vpls=16", NULL };
+    const char *const settings[] = { "vpls=16", "clamp=disc", NULL };
     image img = render_captured(scene, 33, 45, LAYER_INDIRECT, settings, c);
     const uint32_t *count = c[1].bytes;
     for (int i = 32; i < 33 * 45; i += 33) {
