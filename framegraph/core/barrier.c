@@ -93,7 +93,7 @@ static bool clear_for(fg_graph *g, const io_rec *io, uint32_t value)
     const uint32_t from = flat ? 0 : io->layer, to = flat ? 1u : (uint32_t) io->layer + io->layers;
     uint8_t *written = p->written + rp->written;
     for (uint32_t m = io->mip; m < (uint32_t) io->mip + io->mips; m++) {
-        uint8_t *row = written + m * layers;
+        uint8_t *row = written + (size_t) m * layers;
         for (uint32_t l = from, end; l < to; l = end) {
             for (end = l + 1; end < to && row[end] == row[l];)
                 end++;
@@ -322,10 +322,15 @@ static void barriers_of_step(barrier_state *b, uint32_t step, uint32_t now)
     const uint32_t end = rec->io + rec->reads + rec->writes;
     touch touches[FG_MAX_READS + FG_MAX_WRITES], t;
     unsigned count = 0, bits = 0;
+    bool draws = false; // writes that OpenGL orders
     if (s->clears)
         barriers_of_clears(b, s, now);
-    for (uint32_t k = rec->io; k < end; k++)
-        count += touch_of_io(b, k, &touches[count]);
+    for (uint32_t k = rec->io; k < end; k++) {
+        if (!touch_of_io(b, k, &touches[count]))
+            continue;
+        draws |= (b->d->io[k].flags & IO_WRITE) && !touches[count].incoherent;
+        count++;
+    }
     if (!count)
         return;
     for (unsigned i = 0; i < count; i++)
@@ -334,7 +339,7 @@ static void barriers_of_step(barrier_state *b, uint32_t step, uint32_t now)
     issue(b, bits, now + 2);
     s->bits = (uint16_t) bits;
     // A first write that discards: cleared when the pass is off, so new either way.
-    for (uint32_t k = s->clear; k < s[1].clear; k++)
+    for (uint32_t k = s->clear; draws && k < s[1].clear; k++)
         if (b->p->clear[k].flags == CLEAR_IF_OFF && touch_of_clear(b, &b->p->clear[k], &t))
             forget(&t);
     for (unsigned i = 0; i < count; i++)

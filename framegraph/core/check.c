@@ -47,8 +47,8 @@ static void check_names(fg_graph *g, bool passes, uint32_t mask)
     for (uint32_t i = 0; i < count; i++) {
         const char *name = passes ? pass_name(d, i) : res_name(d, i);
         const uint32_t hash = fg_hash(name, strlen(name));
-        uint32_t *entry = &g->table[2 * (hash & mask)];
-        for (uint32_t at = hash; entry[1]; entry = &g->table[2 * (++at & mask)]) {
+        uint32_t *entry = g->table + 2 * (size_t) (hash & mask);
+        for (uint32_t at = hash; entry[1]; entry = g->table + 2 * (size_t) (++at & mask)) {
             const uint32_t k = entry[1] - 1;
             g->work++;
             if (entry[0] == hash && !strcmp(name, passes ? pass_name(d, k) : res_name(d, k)))

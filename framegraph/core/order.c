@@ -69,6 +69,12 @@ static bool alloc_rows(fg_graph *g, edges *e, uint32_t rows)
     return true;
 }
 
+static void free_rows(fg_graph *g, edges *e)
+{
+    fg_release(&g->allocator, e->from);
+    fg_release(&g->allocator, e->to);
+}
+
 // Turns counts at [i + 1] into offsets and copies them to `fill`.
 static bool sum_rows(order_state *o, edges *e, uint32_t rows)
 {
@@ -164,41 +170,45 @@ static void report_cycle(fg_graph *g, const uint32_t *stack, uint32_t top, uint3
 #define GREY (NONE - 1u) // on the path
 
 // Depth first without recursion; plan.step_of holds the colour, or the place when done.
-static bool depth_first(order_state *o)
+static bool visit(order_state *o, uint32_t root, uint32_t *done)
 {
     fg_graph *g = o->g;
     plan *p = g->next;
-    const uint32_t count = g->open->pass_count;
-    uint32_t done = 0;
+    uint32_t depth = 1;
+    p->step_of[root] = GREY;
+    g->stack[0] = root;
+    while (depth) {
+        const uint32_t pass = g->stack[depth - 1];
+        if (o->fill[pass] == o->before.from[pass + 1]) {
+            p->step_of[pass] = *done;
+            p->order[(*done)++] = pass;
+            depth--;
+            continue;
+        }
+        const uint32_t next = o->before.to[o->fill[pass]++];
+        if (p->step_of[next] == GREY) {
+            report_cycle(g, g->stack, depth - 1, next);
+            return false;
+        }
+        if (p->step_of[next] == WHITE) {
+            p->step_of[next] = GREY;
+            g->stack[depth++] = next;
+        }
+    }
+    return true;
+}
+
+static bool depth_first(order_state *o)
+{
+    const uint32_t count = o->g->open->pass_count;
+    uint32_t *colour = o->g->next->step_of, done = 0;
     for (uint32_t i = 0; i < count; i++) {
-        p->step_of[i] = WHITE;
+        colour[i] = WHITE;
         o->fill[i] = o->before.from[i];
     }
-    for (uint32_t root = 0; root < count; root++) {
-        uint32_t depth = 0;
-        if (p->step_of[root] == WHITE) {
-            p->step_of[root] = GREY;
-            g->stack[depth++] = root;
-        }
-        while (depth) {
-            const uint32_t pass = g->stack[depth - 1];
-            if (o->fill[pass] == o->before.from[pass + 1]) {
-                p->step_of[pass] = done;
-                p->order[done++] = pass;
-                depth--;
-                continue;
-            }
-            const uint32_t next = o->before.to[o->fill[pass]++];
-            if (p->step_of[next] == GREY) {
-                report_cycle(g, g->stack, depth - 1, next);
-                return false;
-            }
-            if (p->step_of[next] == WHITE) {
-                p->step_of[next] = GREY;
-                g->stack[depth++] = next;
-            }
-        }
-    }
+    for (uint32_t root = 0; root < count; root++)
+        if (colour[root] == WHITE && !visit(o, root, &done))
+            return false;
     return true;
 }
 
@@ -248,11 +258,9 @@ fg_status fg_order(fg_graph *g, bool in_order)
                      g->open->pass_count);
     else if (depth_first(&o) && random)
         random_order(&o);
-    const edges *all[] = { &o.readers, &o.before, &o.after };
-    for (int i = 0; i < FG_COUNT(all); i++) {
-        fg_release(&g->allocator, all[i]->from);
-        fg_release(&g->allocator, all[i]->to);
-    }
+    free_rows(g, &o.readers);
+    free_rows(g, &o.before);
+    free_rows(g, &o.after);
     fg_release(&g->allocator, o.fill);
     return g->open->status;
 }
