@@ -170,20 +170,19 @@ fg_status fg_graph_compile(fg_graph *g)
                      g->running ? "while the graph runs" : "without a declaration");
         return FG_ERR_INVALID;
     }
+    fg_status status = g->open->status;
+    const bool equal = g->compiled && status == FG_OK && fg_decl_equal(g->open, g->built);
+    if (status == FG_OK && !equal)
+        status = build(g);
     g->declaring = false;
-    if (g->open->status != FG_OK)
-        return g->open->status;
-    if (g->compiled && fg_decl_equal(g->open, g->built)) {
+    if (status != FG_OK)
+        return status;
+    if (equal)
         take_equal(g);
-        fg_decl_reset(g->open);
-        return FG_OK;
-    }
-    const fg_status status = build(g);
-    if (status == FG_OK) {
+    else
         commit(g);
-        fg_decl_reset(g->open);
-    }
-    return status;
+    fg_decl_reset(g->open);
+    return FG_OK;
 }
 
 // ---- passes on and off ------------------------------------------------------------------

@@ -11,9 +11,10 @@ static void fail_v(fg_graph *g, fg_status status, const char *fmt, va_list args)
     char msg[1024];
     vsnprintf(msg, sizeof msg, fmt, args);
     fg_logf(g->log, FG_LOG_ERROR, "%s", msg);
-    if (g->open->status == FG_OK)
+    if (g->running)
+        g->disturbed = true;
+    else if (g->declaring && g->open->status == FG_OK)
         g->open->status = status;
-    g->disturbed = g->running;
 }
 
 void fg_decl_fail(fg_graph *g, fg_status status, const char *fmt, ...)
@@ -110,6 +111,7 @@ void fg_graph_begin(fg_graph *g, const fg_frame_desc *desc)
     g->feature_names = desc->feature_names;
     g->feature_count = desc->feature_names ? desc->feature_count : 0;
     g->declaring = true;
+    g->last_known = false;
     g->epoch++;
 }
 
@@ -247,10 +249,32 @@ static fg_res add_resource(fg_graph *g, const char *name, res_rec *r)
     return (fg_res){ .id = d->res_count, .version = 1, .epoch = (uint16_t) g->epoch };
 }
 
+static bool same_desc(const fg_tex_desc *a, const fg_tex_desc *b)
+{
+    return a->format == b->format && a->width == b->width && a->height == b->height &&
+           a->scale_log2 == b->scale_log2 && a->depth == b->depth && a->layers == b->layers &&
+           a->mips == b->mips && a->samples == b->samples && a->cube == b->cube &&
+           a->history == b->history;
+}
+
+// Runs of equal textures are common: the last good one is kept.
+static bool texture_record(fg_graph *g, const char *name, const fg_tex_desc *desc, res_rec *r)
+{
+    if (!g->last_known || !same_desc(desc, &g->last_desc)) {
+        if (!texture_shape(g, name, desc, r))
+            return false;
+        g->last_desc = *desc;
+        g->last_rec = *r;
+        g->last_known = true;
+    }
+    *r = g->last_rec;
+    return true;
+}
+
 fg_res fg_texture(fg_graph *g, const char *name, const fg_tex_desc *desc)
 {
     res_rec r = { .import = NONE };
-    if (!may_declare(g, "texture", name) || !texture_shape(g, name, desc, &r))
+    if (!may_declare(g, "texture", name) || !texture_record(g, name, desc, &r))
         return (fg_res){ 0 };
     return add_resource(g, name, &r);
 }

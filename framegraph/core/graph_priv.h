@@ -279,6 +279,9 @@ struct fg_graph {
     bool ran;              // since the compile
     bool swap_due;         // the last frame succeeded
     bool after_incoherent; // the plan before had incoherent writes
+    fg_tex_desc last_desc; // of the last texture declared, where last_known
+    res_rec last_rec;
+    bool last_known;
     uint64_t features;
     const char *const *feature_names;
     int feature_count;

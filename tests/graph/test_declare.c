@@ -91,6 +91,7 @@ static void declaring_needs_an_open_declaration(void **state) // C06
     rig_must_have_said(r, "fg_graph_run() called before a graph has compiled");
     rig_begin(r);
     PASSES(r, PASS(r, "show", SHOW));
+    assert_int_equal(fg_graph_run(r->g), FG_ERR_INVALID); // too early; does the declaration no harm
     rig_must_compile(r);
     rig_must_compile(r); // again: it has compiled
     rig_close(r);
