@@ -202,7 +202,7 @@ static bool varies(const ag_channel *c)
         if (memcmp(v + (cubic ? n : 0), c->values + (cubic ? n : 0), n * sizeof *v) != 0)
             return true;
         for (size_t i = 0; cubic && i < n; i++)
-            if (v[i] != 0 || v[i - n] != 0)
+            if (v[i] != 0 || (v - n)[i] != 0)
                 return true;
     }
     return false;
