@@ -29,7 +29,7 @@ static void set_matrices(const ag_camera *c, double aspect, ag_view *v)
         ag_mat_orthographic((double) c->half_height * aspect, (double) c->half_height,
                             (double) c->znear, (double) c->zfar, proj);
     else
-        ag_mat_perspective((double) c->yfov, aspect, (double) c->znear, INFINITY, proj);
+        ag_mat_perspective((double) c->yfov, aspect, (double) c->znear, (double) INFINITY, proj);
     ag_mat_mul(proj, look, proj);
     ag_mat_to_float(proj, v->view_proj);
     if (!ag_mat_inverse(proj, look)) // beyond what doubles hold: an identity, still finite

@@ -67,7 +67,7 @@ static void perspective_face(double axes[3][3], const double eye[3], int face, d
     double forward[3], proj[16];
     for (int i = 0; i < 3; i++)
         forward[i] = sign * (face == 0 || face == 5 ? axes[2][i] : axis[i]);
-    ag_mat_perspective(2 * atan(tangent), 1, znear, INFINITY, proj);
+    ag_mat_perspective(2 * atan(tangent), 1, znear, (double) INFINITY, proj);
     set_face(eye, forward, up, proj, out);
     out->right[3] = out->up[3] = (float) tangent;
     out->forward[3] = (float) znear;

@@ -29,7 +29,7 @@ static void load(const float *v, int n, double out[4])
 static void cubic(const ag_channel *c, int key, int n, double s, double out[4])
 {
     double step = (double) c->times[key + 1] - (double) c->times[key];
-    const float *k0 = c->values + (size_t) key * 3 * (size_t) n, *k1 = k0 + 3 * n;
+    const float *k0 = c->values + (size_t) key * 3 * (size_t) n, *k1 = k0 + 3 * (size_t) n;
     double s2 = s * s, s3 = s2 * s;
     for (int i = 0; i < n; i++) {
         double p0 = (double) k0[n + i], m0 = step * (double) k0[2 * n + i];

@@ -40,9 +40,11 @@ void ag_name_copy(char out[64], const char *name)
     if (n > 63)
         for (n = 63; n > 0 && ((unsigned char) name[n] & 0xc0) == 0x80;)
             n--;
-    if (n > 0)
-        memmove(out, name, n);
-    memset(out + n, 0, 64 - n);
+    for (size_t i = 0; i < 64; i++)
+        if (i < n)
+            out[i] = name[i];
+        else
+            out[i] = '\0';
 }
 
 int ag_builder_refuse(ag_builder *b, fg_status status, const char *fmt, ...)
@@ -270,7 +272,7 @@ int ag_builder_skin(ag_builder *b, const int *joints, int count, const float *in
     if (!skin->joints || !skin->inverse_bind)
         return ag_builder_refuse(b, FG_ERR_MEMORY, "skins: out of memory");
     skin->count = count;
-    for (int i = 0; i < count; i++) {
+    for (size_t i = 0; i < (size_t) count; i++) {
         skin->joints[i] = joints[i];
         if (inverse_bind)
             ag_mat_from_float(inverse_bind + 16 * i, skin->inverse_bind + 16 * i);

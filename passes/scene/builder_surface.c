@@ -71,7 +71,6 @@ ag_material ag_default_material(void)
 
 static bool texture_ref(ag_builder *b, ag_texture_ref *ref, const ag_material *m, const char *what)
 {
-    static const float unset[6];
     size_t count = b->p->textures.count;
     if (ref->texture < -1 || ref->texture >= (int) count) {
         ag_builder_refuse(b, FG_ERR_INVALID,
@@ -88,15 +87,19 @@ static bool texture_ref(ag_builder *b, ag_texture_ref *ref, const ag_material *m
                           m->name, what, ref->uv);
         return false;
     }
-    if (memcmp(ref->transform, unset, sizeof unset) == 0)
-        memcpy(ref->transform, no_texture.transform, sizeof unset);
+    bool unset = true;
     for (int i = 0; i < 6; i++)
+        unset = unset && ref->transform[i] == 0;
+    for (int i = 0; i < 6; i++) {
+        if (unset)
+            ref->transform[i] = no_texture.transform[i];
         if (!isfinite(ref->transform[i])) {
             ag_builder_refuse(b, FG_ERR_INVALID,
                               "material '%.63s': %s has a texture transform that is not finite",
                               m->name, what);
             return false;
         }
+    }
     return true;
 }
 

@@ -105,10 +105,10 @@ static bool has_area_light(const ag_scene *s)
 
 static uint64_t material_features(const ag_material *m)
 {
-    const ag_texture_ref *refs[] = { &m->base_color_tex, &m->metallic_roughness_tex,
-                                     &m->emissive_tex };
+    const ag_texture_ref *refs[3] = { &m->base_color_tex, &m->metallic_roughness_tex,
+                                      &m->emissive_tex };
     uint64_t f = 0;
-    for (int i = 0; i < FG_COUNT(refs); i++) {
+    for (int i = 0; i < 3; i++) {
         const float *t = refs[i]->transform;
         if (refs[i]->texture < 0)
             continue;

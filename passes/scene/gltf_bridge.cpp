@@ -67,6 +67,7 @@ static bool write_file(std::string *, const std::string &, const std::vector<uns
 }
 
 // Keeps the encoded file. The bytes of a view are not touched: nobody has checked it yet.
+// NOLINTNEXTLINE(readability-function-size): the parameters are tinygltf's
 static bool keep_image(tinygltf::Image *image, const int, std::string *, std::string *, int, int,
                        const unsigned char *bytes, int size, void *)
 {

@@ -86,24 +86,27 @@ static bool check_views(gltf_loader *l)
     return true;
 }
 
-// Whether `count` elements that are `stride` apart lie in a view from `offset` on.
-static bool fits(gltf_loader *l, int accessor, int view, size_t offset, size_t count, size_t size,
-                 size_t stride)
+typedef struct run {
+    size_t offset, count, size, stride; // bytes, but for count
+} run;
+
+// Whether a run of elements lies in a view.
+static bool fits(gltf_loader *l, int accessor, int view, run r)
 {
     size_t length = l->m->views[view].length;
-    if (stride < size) {
+    if (r.stride < r.size) {
         ag_builder_refuse(l->b, FG_ERR_INPUT,
-                          "accessor %d: elements of %zu bytes at a stride of %zu", accessor, size,
-                          stride);
+                          "accessor %d: elements of %zu bytes at a stride of %zu", accessor, r.size,
+                          r.stride);
         return false;
     }
-    if (offset <= length && size <= length - offset &&
-        (count - 1) <= (length - offset - size) / stride)
+    if (r.offset <= length && r.size <= length - r.offset &&
+        (r.count - 1) <= (length - r.offset - r.size) / r.stride)
         return true;
     ag_builder_refuse(l->b, FG_ERR_INPUT,
                       "accessor %d: %zu elements of %zu bytes from byte %zu on reach beyond "
                       "bufferView %d, which has %zu",
-                      accessor, count, size, offset, view, length);
+                      accessor, r.count, r.size, r.offset, view, length);
     return false;
 }
 
@@ -122,8 +125,9 @@ static bool check_sparse(gltf_loader *l, int i)
         !gltf_refers(l, "accessor", i, "sparse values' bufferView", a->value_view, views))
         return false;
     size_t count = (size_t) a->sparse_count;
-    if (!fits(l, i, a->index_view, (size_t) a->index_offset, count, index_size, index_size) ||
-        !fits(l, i, a->value_view, (size_t) a->value_offset, count, gltf_element_extent(a), size))
+    run indices = { (size_t) a->index_offset, count, index_size, index_size };
+    run values = { (size_t) a->value_offset, count, gltf_element_extent(a), size };
+    if (!fits(l, i, a->index_view, indices) || !fits(l, i, a->value_view, values))
         return false;
     gltf_reader r = gltf_reader_open(l->m, i);
     uint32_t last = 0;
@@ -150,8 +154,8 @@ static bool check_accessor(gltf_loader *l, int i)
         return refuse(l, "accessor", i, "its count is absurd for one without a bufferView");
     if (a->view >= 0) {
         size_t stride = l->m->views[a->view].stride;
-        if (!fits(l, i, a->view, a->offset, a->count, gltf_element_extent(a),
-                  stride > 0 ? stride : size))
+        run r = { a->offset, a->count, gltf_element_extent(a), stride > 0 ? stride : size };
+        if (!fits(l, i, a->view, r))
             return false;
     }
     return !a->sparse || check_sparse(l, i);
@@ -180,9 +184,9 @@ static bool check_textures(gltf_loader *l)
     for (int i = 0; i < m->materials_count; i++) {
         const gltf_material *mat = &m->materials[i];
         const gltf_texture_info *infos[] = { &mat->base_color_tex, &mat->metallic_roughness_tex,
-                                             &mat->emissive_tex, &mat->normal_tex,
-                                             &mat->occlusion_tex };
-        for (int k = 0; k < FG_COUNT(infos); k++) {
+                                             &mat->emissive_tex,   &mat->normal_tex,
+                                             &mat->occlusion_tex,  NULL };
+        for (int k = 0; infos[k]; k++) {
             if (!gltf_refers(l, "material", i, "texture", infos[k]->texture, m->textures_count))
                 return false;
             if (infos[k]->uv < 0)

@@ -246,7 +246,7 @@ static fg_status pack(const glb_chunks *chunks, gltf_blob *out, char fault[GLTF_
     write32(to + 16, json_chunk);
     memset(to + 20, ' ', json_size);
     memcpy(to + 20, chunks->json, chunks->json_size);
-    if (bin_size > 0) {
+    if (chunks->bin && bin_size > 0) {
         write32(to + 20 + json_size, (uint32_t) bin_size);
         write32(to + 24 + json_size, bin_chunk);
         memcpy(to + 28 + json_size, chunks->bin, chunks->bin_size);
@@ -261,7 +261,7 @@ fg_status gltf_unpack(const uint8_t *bytes, size_t size, gltf_blob *out, char fa
     if (size >= 12 && read32(bytes) == glb_magic) {
         glb_chunks chunks = { 0 };
         status = find_chunks(bytes, size, &chunks, fault);
-        if (status == FG_OK)
+        if (status == FG_OK && chunks.json)
             status = pack(&chunks, out, fault);
     } else if (size == 0 || size > UINT32_MAX) {
         status = fail(fault, "JSON: %zu bytes, must be 1 to 4294967295", size);

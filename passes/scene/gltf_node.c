@@ -160,18 +160,20 @@ bool gltf_load_nodes(gltf_loader *l)
 // ---- what is shown ----------------------------------------------------------------
 
 typedef struct converted {
-    int first, count; // the builder's primitives; first -1: not converted yet
+    bool done;
+    int first, count; // the builder's primitives
 } converted;
 
 static bool show(gltf_loader *l, int i, converted *meshes)
 {
     const gltf_node *n = &l->m->nodes[i];
-    converted own = { .first = -1 }, *mesh = &meshes[n->mesh];
+    converted own = { 0 }, *mesh = &meshes[n->mesh];
     // Weights of the node's own make other shapes of the same mesh.
     if (n->weights.count > 0)
         mesh = &own;
-    if (mesh->first < 0)
+    if (!mesh->done)
         mesh->first = gltf_load_mesh(l, n->mesh, n->weights, &mesh->count);
+    mesh->done = true;
     if (mesh->first < 0)
         return false;
     for (int k = 0; k < mesh->count; k++)
@@ -182,11 +184,9 @@ static bool show(gltf_loader *l, int i, converted *meshes)
 bool gltf_load_shows(gltf_loader *l)
 {
     size_t count = (size_t) l->m->meshes_count;
-    converted *meshes = malloc((count + 1) * sizeof *meshes);
+    converted *meshes = calloc(count + 1, sizeof *meshes);
     if (!meshes)
         return gltf_no_memory(l);
-    for (size_t i = 0; i < count; i++)
-        meshes[i] = (converted){ .first = -1 };
     bool ok = true;
     for (int i = 0; i < l->m->nodes_count && ok; i++)
         if (l->in_scene[i] && l->m->nodes[i].mesh >= 0)

@@ -25,9 +25,9 @@ void ag_scene_private_destroy(ag_scene_private *p)
         &p->vertices,     &p->indices,   &p->primitives, &p->staged,         &p->influences,
         &p->instances,    &p->materials, &p->textures,   &p->lights,         &p->light_nodes,
         &p->cameras,      &p->nodes,     &p->channels,   &p->lengths,        &p->skins,
-        &p->camera_nodes, &p->skinned,   &p->rest,       &p->instance_skins,
+        &p->camera_nodes, &p->skinned,   &p->rest,       &p->instance_skins, NULL,
     };
-    for (int i = 0; i < FG_COUNT(arrays); i++)
+    for (int i = 0; arrays[i]; i++)
         ag_array_finish(arrays[i]);
     free(p->joint_worlds);
     free(p->label);
@@ -92,8 +92,11 @@ void ag_worlds_update(ag_scene_private *p, bool first)
 // Sets a world; true if it is another one than before.
 static bool move(double world[16], const double to[16])
 {
-    bool changed = memcmp(world, to, 16 * sizeof *world) != 0;
-    memcpy(world, to, 16 * sizeof *world);
+    bool changed = false;
+    for (int i = 0; i < 16; i++) {
+        changed = changed || world[i] != to[i];
+        world[i] = to[i];
+    }
     return changed;
 }
 
@@ -129,17 +132,18 @@ static bool follow_lights(ag_scene_private *p, bool first)
     const int *at = p->light_nodes.data;
     ag_light *lights = p->lights.data;
     for (size_t i = 0; i < p->lights.count; i++) {
-        ag_light *light = &lights[i], was = *light;
+        ag_light *light = &lights[i];
         if (at[i] < 0 || (!first && !light->moving))
             continue;
         double rigid[16], direction[3];
         ag_mat_rigid(((const ag_node *) p->nodes.data)[at[i]].world, rigid);
         ag_mat_vector(rigid, forward, direction);
         for (int k = 0; k < 3; k++) {
+            changed = changed || light->position[k] != rigid[12 + k] ||
+                      light->direction[k] != (float) direction[k];
             light->position[k] = rigid[12 + k];
             light->direction[k] = (float) direction[k];
         }
-        changed = changed || memcmp(&was, light, sizeof was) != 0;
     }
     return changed;
 }
@@ -167,27 +171,32 @@ void ag_primitive_bounds(const ag_scene_private *p, ag_primitive *primitive)
         }
 }
 
-// The world box around the corners of every instance's box.
+// Widens the scene's box by the corners of an instance's.
+static void add_bounds(ag_scene *s, const ag_instance *instance)
+{
+    const ag_primitive *primitive = &s->primitives[instance->primitive];
+    if (primitive->index_count == 0)
+        return;
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = (double) (corner >> k & 1 ? primitive->box_max : primitive->box_min)[k];
+        ag_mat_point(instance->world, p, p);
+        for (int k = 0; k < 3; k++) {
+            s->box_min[k] = fmin(s->box_min[k], p[k]);
+            s->box_max[k] = fmax(s->box_max[k], p[k]);
+        }
+    }
+}
+
 static void scene_bounds(ag_scene *s)
 {
     for (int k = 0; k < 3; k++) {
         s->box_min[k] = (double) INFINITY;
         s->box_max[k] = -(double) INFINITY;
     }
-    for (int i = 0; i < s->instance_count; i++) {
-        const ag_instance *instance = &s->instances[i];
-        const ag_primitive *primitive = &s->primitives[instance->primitive];
-        for (int corner = 0; corner < 8 && primitive->index_count > 0; corner++) {
-            double p[3];
-            for (int k = 0; k < 3; k++)
-                p[k] = (double) (corner >> k & 1 ? primitive->box_max : primitive->box_min)[k];
-            ag_mat_point(instance->world, p, p);
-            for (int k = 0; k < 3; k++) {
-                s->box_min[k] = fmin(s->box_min[k], p[k]);
-                s->box_max[k] = fmax(s->box_max[k], p[k]);
-            }
-        }
-    }
+    for (int i = 0; i < s->instance_count; i++)
+        add_bounds(s, &s->instances[i]);
 }
 
 void ag_scene_follow(ag_scene *s, bool first)

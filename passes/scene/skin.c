@@ -11,7 +11,7 @@ static void joint_matrices(const ag_scene_private *p, const ag_skin *skin)
 {
     const ag_node *nodes = p->nodes.data;
     double *at = p->joint_worlds;
-    for (int i = 0; i < skin->count; i++, at += 25) {
+    for (size_t i = 0; i < (size_t) skin->count; i++, at += 25) {
         ag_mat_mul(nodes[skin->joints[i]].world, skin->inverse_bind + 16 * i, at);
         ag_mat_normal(at, at + 16);
     }
@@ -56,7 +56,9 @@ static bool skin_primitive(ag_scene_private *p, const ag_skinned *skinned)
     for (uint32_t i = 0; i < primitive->vertex_count; i++) {
         ag_vertex was = vertices[i];
         skin_vertex(p->joint_worlds, &rest[i], &vertices[i]);
-        changed = changed || memcmp(&was, &vertices[i], sizeof was) != 0;
+        for (int k = 0; k < 3; k++)
+            changed = changed || was.position[k] != vertices[i].position[k] ||
+                      was.normal[k] != vertices[i].normal[k];
     }
     if (changed)
         ag_primitive_bounds(p, primitive);
