@@ -255,7 +255,7 @@ fg_status fg_bind(fg_graph *g)
 void fg_graph_trim(fg_graph *g)
 {
     if (g->running) {
-        fg_decl_fail(g, FG_ERR_INVALID, "graph: fg_graph_trim() called while the graph runs");
+        fg_misuse(g, "fg_graph_trim", "while the graph runs");
         return;
     }
     if (g->pool_count && g->compiled && match(g))

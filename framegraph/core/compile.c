@@ -36,7 +36,7 @@ void fg_graph_destroy(fg_graph *g)
     if (!g)
         return;
     if (g->running) {
-        fg_decl_fail(g, FG_ERR_INVALID, "graph: fg_graph_destroy() called while the graph runs");
+        fg_misuse(g, "fg_graph_destroy", "while the graph runs");
         return;
     }
     const fg_allocator a = g->allocator;
@@ -166,9 +166,8 @@ fg_status fg_graph_compile(fg_graph *g)
     if (g->running || !g->declaring) {
         if (!g->running && g->open->status == FG_OK && g->compiled)
             return FG_OK; // compiled already
-        fg_decl_fail(g, FG_ERR_INVALID, "graph: fg_graph_compile() called %s",
-                     g->running ? "while the graph runs" : "without a declaration");
-        return FG_ERR_INVALID;
+        return fg_misuse(g, "fg_graph_compile",
+                         g->running ? "while the graph runs" : "without a declaration");
     }
     fg_status status = g->open->status;
     const bool equal = g->compiled && status == FG_OK && fg_decl_equal(g->open, g->built);

@@ -17,6 +17,13 @@ static void fail_v(fg_graph *g, fg_status status, const char *fmt, va_list args)
         g->open->status = status;
 }
 
+fg_status fg_misuse(fg_graph *g, const char *call, const char *rule)
+{
+    fg_logf(g->log, FG_LOG_ERROR, "graph: %s() called %s", call, rule);
+    g->disturbed = g->running;
+    return FG_ERR_INVALID;
+}
+
 void fg_decl_fail(fg_graph *g, fg_status status, const char *fmt, ...)
 {
     va_list args;
@@ -100,7 +107,7 @@ void fg_graph_begin(fg_graph *g, const fg_frame_desc *desc)
 {
     static const fg_frame_desc none = { 0 };
     if (g->running) {
-        fg_decl_fail(g, FG_ERR_INVALID, "graph: fg_graph_begin() called while the graph runs");
+        fg_misuse(g, "fg_graph_begin", "while the graph runs");
         return;
     }
     desc = desc ? desc : &none;

@@ -215,11 +215,9 @@ static fg_status run_frame(fg_graph *g)
 
 fg_status fg_graph_run(fg_graph *g)
 {
-    if (g->running || !g->compiled) {
-        fg_decl_fail(g, FG_ERR_INVALID, "graph: fg_graph_run() called %s",
-                     g->running ? "while the graph runs" : "before a graph has compiled");
-        return FG_ERR_INVALID;
-    }
+    if (g->running || !g->compiled)
+        return fg_misuse(g, "fg_graph_run",
+                         g->running ? "while the graph runs" : "before a graph has compiled");
     g->running = true;
     g->disturbed = false;
     const fg_status status = run_frame(g);

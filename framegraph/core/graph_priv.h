@@ -354,6 +354,8 @@ static inline bool io_overlap(const io_rec *a, const io_rec *b)
 
 // Marks the open declaration with its first mistake and logs it.
 void fg_decl_fail(fg_graph *g, fg_status status, const char *fmt, ...) FG_PRINTF(3, 4);
+// Logs a call that is not allowed now; the declaration takes no harm. FG_ERR_INVALID.
+fg_status fg_misuse(fg_graph *g, const char *call, const char *rule);
 // Appends a string to the text of the open declaration; 0 when out of memory.
 uint32_t fg_decl_text(fg_graph *g, const char *text, size_t length);
 void fg_decl_reset(decl *d);
