@@ -4,8 +4,8 @@
 #include <string.h>
 
 static const command *const commands[] = {
-    &command_render, &command_sequence, &command_reference, &command_compare, &command_report,
-    &command_graph,  &command_plugins,  &command_scenes,    &command_info,
+    &command_render,    &command_sequence, &command_reference, &command_compare, &command_report,
+    &command_stability, &command_graph,    &command_plugins,   &command_scenes,  &command_info,
 };
 
 static const command *find_command(const char *name)

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "stability.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEFAULT_SIZE = 48 };
+
+// ---- what every buffer must keep ----------------------------------------------------------------
+
+// Light is never negative. Buffers of it are known by their names.
+static bool holds_light(const char *name)
+{
+    static const char *const words[] = { "radiance", "flux",   "irradiance", "emissive", "indirect",
+                                         "direct.",  "glossy", "albedo",     "display" };
+    for (int i = 0; i < FG_COUNT(words); ++i)
+        if (strstr(name, words[i]))
+            return true;
+    return false;
+}
+
+static void check_floats(stability *s, const fg_written *w, const float *values, size_t count)
+{
+    const bool light = holds_light(w->resource);
+    long bad = 0;
+    for (size_t i = 0; i < count; ++i)
+        bad += !isfinite(values[i]) || (light && values[i] < 0);
+    if (bad && !s->bad)
+        snprintf(s->where, sizeof s->where, "%s after %s", w->resource, w->pass);
+    s->bad += bad;
+}
+
+static int at_level(int size, int mip)
+{
+    return size >> mip > 1 ? size >> mip : 1;
+}
+
+static void check_texture(stability *s, const fg_written *w)
+{
+    const fg_format_info *info = fg_format_get(w->tex->format);
+    if ((!info->is_float && !info->depth) || info->stencil || w->tex->samples > 1)
+        return;
+    for (int mip = w->mip; mip < w->mip + w->mips; ++mip) {
+        const int width = at_level(w->tex->width, mip), height = at_level(w->tex->height, mip);
+        const bool volume = w->tex->depth > 0;
+        const int first = volume ? 0 : w->layer,
+                  layers = volume ? at_level(w->tex->depth, mip) : w->layers;
+        const size_t channels = info->depth ? 1 : 4;
+        const size_t count = (size_t) width * (size_t) height * (size_t) layers * channels;
+        float *values = malloc(count * sizeof *values);
+        if (!values) {
+            ++s->bad;
+            return;
+        }
+        glGetTextureSubImage(w->object, mip, 0, 0, first, width, height, layers,
+                             info->depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT,
+                             (GLsizei) (count * sizeof *values), values);
+        check_floats(s, w, values, count);
+        free(values);
+    }
+}
+
+// Buffers mix integers and floats; those named so hold floats alone.
+static void check_buffer(stability *s, const fg_written *w)
+{
+    const size_t length = strlen(w->resource);
+    if (length < 5 || strcmp(w->resource + length - 5, ".vpls"))
+        return;
+    float *values = malloc(w->buf->size);
+    if (!values) {
+        ++s->bad;
+        return;
+    }
+    glGetNamedBufferSubData(w->object, 0, (GLsizeiptr) w->buf->size, values);
+    check_floats(s, w, values, w->buf->size / sizeof *values);
+    free(values);
+}
+
+static void put_nan(stability *s, const fg_written *w)
+{
+    const float value[4] = { NAN, NAN, NAN, 1 };
+    if (strcmp(w->resource, "gbuffer.normal"))
+        return;
+    s->poked = true;
+    glTextureSubImage2D(w->object, 0, w->tex->width / 2, w->tex->height / 2, 1, 1, GL_RGBA,
+                        GL_FLOAT, value);
+}
+
+static void inspect(void *user, const fg_written *w)
+{
+    stability *s = user;
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    if (s->poke)
+        put_nan(s, w);
+    else if (w->tex)
+        check_texture(s, w);
+    else
+        check_buffer(s, w);
+}
+
+// ---- frames
+// ---------------------------------------------------------------------------------------
+
+fg_status stability_render(stability *s, const shot *what, image *out)
+{
+    renderer *r = NULL;
+    const renderer_desc desc = {
+        .log = &s->log,
+        .device = s->device,
+        .scene = what->scene,
+        .camera = what->camera,
+        .width = what->width ? what->width : DEFAULT_SIZE,
+        .height = what->height ? what->height : DEFAULT_SIZE,
+        .plugin = s->setting->plugin,
+        .values = what->values ? what->values : s->setting->values,
+        .layers = 1u << what->layer,
+        .debug = what->debug | FG_DEBUG_POISON,
+        .seed = 1,
+        .inspect = inspect,
+        .inspect_user = s,
+    };
+    *out = (image){ 0 };
+    fg_status status = renderer_create(&desc, &r);
+    for (int i = 0; i < (what->frames ? what->frames : 1) && status == FG_OK; ++i)
+        status = renderer_frame(r, what->time + i * what->step);
+    if (status == FG_OK)
+        status = renderer_read(r, what->layer, out);
+    renderer_destroy(r);
+    return status;
+}
