@@ -265,7 +265,7 @@ static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
     const res_rec *r = &b->d->res[io->res];
     const bool flat = r->depth > 0;
     t->stride = flat ? 1 : sub_layers(r);
-    t->first = &b->p->sub[slot->subs + io->mip * t->stride + (flat ? 0 : io->layer)];
+    t->first = &b->p->sub[slot->subs + (size_t) io->mip * t->stride + (flat ? 0 : io->layer)];
     t->rows = io->mips;
     t->columns = flat ? 1 : io->layers;
     t->bit = use_bit[io->use];
@@ -281,7 +281,7 @@ static bool touch_of_clear(const barrier_state *b, const clear_rec *c, touch *t)
         return false;
     const res_rec *r = &b->d->res[c->res];
     t->stride = r->depth ? 1 : sub_layers(r);
-    t->first = &b->p->sub[slot->subs + c->mip * t->stride + c->layer];
+    t->first = &b->p->sub[slot->subs + (size_t) c->mip * t->stride + c->layer];
     t->rows = c->mips;
     t->columns = c->layers;
     t->bit = COPY_BIT;

@@ -64,9 +64,9 @@ void fg_object_destroy(fg_graph *g, bool texture, uint32_t object)
 static fg_status view_of(fg_graph *g, uint32_t pool, uint32_t res, uint32_t *object)
 {
     const res_rec *r = &g->built->res[res];
-    for (uint32_t i = 0; i < g->view_count; i++)
-        if (g->view[i].pool == pool && g->view[i].format == r->format) {
-            *object = g->view[i].object;
+    for (uint32_t i = g->pool[pool].view; i; i = g->view[i - 1].next)
+        if (g->view[i - 1].format == r->format) {
+            *object = g->view[i - 1].object;
             return FG_OK;
         }
     const fg_tex_desc desc = fg_tex_desc_of(r);
@@ -77,18 +77,21 @@ static fg_status view_of(fg_graph *g, uint32_t pool, uint32_t res, uint32_t *obj
     }
     const fg_status status =
         g->device->ops->view_create(g->device, name, g->pool[pool].object, &desc, object);
-    if (status == FG_OK)
-        g->view[g->view_count++] = (pool_view){ pool, r->format, *object, 0 };
-    else
+    if (status != FG_OK) {
         fg_logf(g->log, FG_LOG_ERROR, "graph: view for '%s': %s", name, fg_status_name(status));
-    return status;
+        return status;
+    }
+    g->view[g->view_count++] = (pool_view){ pool, r->format, *object, g->pool[pool].view };
+    g->pool[pool].view = g->view_count;
+    return FG_OK;
 }
 
-static void destroy_views(fg_graph *g, uint32_t pool)
+// Destroys the views of entries that are without an object now.
+static void destroy_views(fg_graph *g)
 {
     uint32_t left = 0;
     for (uint32_t i = 0; i < g->view_count; i++) {
-        if (g->view[i].pool == pool)
+        if (!g->pool[g->view[i].pool].object)
             fg_object_destroy(g, true, g->view[i].object);
         else
             g->view[left++] = g->view[i];
@@ -98,27 +101,25 @@ static void destroy_views(fg_graph *g, uint32_t pool)
 
 // ---- the pool ---------------------------------------------------------------------------
 
-static void destroy_pooled(fg_graph *g, uint32_t i)
-{
-    pool_rec *p = &g->pool[i];
-    if (g->view_count)
-        destroy_views(g, i);
-    fg_object_destroy(g, p->key.texture, p->object);
-    p->object = 0;
-}
-
-// Removes destroyed entries; slots and views follow.
+// Removes entries without an object; slots and views follow.
 static void compact(fg_graph *g, uint32_t *moved)
 {
     uint32_t left = 0;
+    destroy_views(g);
     for (uint32_t i = 0; i < g->pool_count; i++) {
         moved[i] = left;
-        if (g->pool[i].object)
-            g->pool[left++] = g->pool[i];
+        if (!g->pool[i].object)
+            continue;
+        g->pool[left] = g->pool[i];
+        g->pool[left++].view = 0;
     }
     g->pool_count = left;
-    for (uint32_t i = 0; i < g->view_count; i++)
-        g->view[i].pool = moved[g->view[i].pool];
+    for (uint32_t i = 0; i < g->view_count; i++) {
+        pool_view *v = &g->view[i];
+        v->pool = moved[v->pool];
+        v->next = g->pool[v->pool].view;
+        g->pool[v->pool].view = i + 1;
+    }
     for (uint32_t s = 0; s < g->plan->slot_count; s++)
         if (g->plan->slot[s].pool != NONE)
             g->plan->slot[s].pool = moved[g->plan->slot[s].pool];
@@ -171,7 +172,8 @@ static void evict(fg_graph *g, uint32_t idle)
     for (uint32_t i = 0; i < g->pool_count; i++) {
         if (g->pool[i].used || g->pool[i].idle < idle)
             continue;
-        destroy_pooled(g, i);
+        fg_object_destroy(g, g->pool[i].key.texture, g->pool[i].object);
+        g->pool[i].object = 0;
         any = true;
     }
     if (any)

@@ -229,13 +229,15 @@ typedef struct plan {
 // ---- device memory ----------------------------------------------------------------------
 
 typedef struct pool_view {
-    uint32_t pool, format, object, zero;
+    uint32_t pool, format, object;
+    uint32_t next; // of the same pool entry, + 1
 } pool_view;
 
 typedef struct pool_rec {
     group_key key;
     uint64_t bytes;
     uint32_t object, format;
+    uint32_t view; // first of its views, + 1
     uint32_t idle; // compiles since it was last in use
     uint32_t next; // of the same hash, while binding
     bool used;
