@@ -220,13 +220,13 @@ static void deep_nesting_is_refused_before_it_is_parsed(void **state)
 {
     (void) state;
     enum { DEPTH = 100000 };
-    char *text = malloc(2 * DEPTH + 100);
+    char *text = malloc((size_t) 2 * DEPTH + 100);
     assert_non_null(text);
     int n = sprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"extras\":");
     memset(text + n, '[', DEPTH);
     memset(text + n + DEPTH, ']', DEPTH);
     text[n + 2 * DEPTH] = '}';
-    write_file("deep.gltf", text, (size_t) n + 2 * DEPTH + 1);
+    write_file("deep.gltf", text, (size_t) n + (size_t) 2 * DEPTH + 1);
     free(text);
     lines l;
     assert_null(load("deep.gltf", &l));

@@ -277,7 +277,7 @@ static void a_chain_of_many_nodes_is_no_trouble(void **state)
 {
     (void) state;
     enum { DEPTH = 50000 };
-    char *text = malloc(DEPTH * 32 + 100);
+    char *text = malloc((size_t) DEPTH * 32 + 100);
     assert_non_null(text);
     int n = sprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"translation\":[1,0,0]}");
     for (int i = 1; i < DEPTH; i++) // node i holds node i - 1
