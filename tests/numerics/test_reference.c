@@ -294,7 +294,7 @@ static void the_near_plane_cuts(void **state)
     ag_scene_destroy(scene);
 }
 
-enum { ROOM_BYTES = 3 * 40 * 24 * sizeof(float) };
+static const size_t room_bytes = (size_t) (3 * 40 * 24) * sizeof(float);
 
 // ---- a lit room: determinism, noise, invariance ---------------------------------------
 
@@ -354,8 +354,8 @@ static void threads_do_not_change_a_bit(void **state)
     image one = render_room((reference_desc){ .spp = 8, .threads = 1 });
     image three = render_room((reference_desc){ .spp = 8, .threads = 3 });
     image all = render_room((reference_desc){ .spp = 8 });
-    assert_memory_equal(one.rgb, three.rgb, ROOM_BYTES);
-    assert_memory_equal(one.rgb, all.rgb, ROOM_BYTES);
+    assert_memory_equal(one.rgb, three.rgb, room_bytes);
+    assert_memory_equal(one.rgb, all.rgb, room_bytes);
     image_finish(&one);
     image_finish(&three);
     image_finish(&all);
