@@ -47,29 +47,44 @@ void ag_name_copy(char out[64], const char *name)
             out[i] = '\0';
 }
 
+// One line, whatever names the file has: control characters become spaces.
+static void say(const ag_builder *b, fg_log_level level, const char *fmt, va_list args)
+{
+    char text[512];
+    vsnprintf(text, sizeof text, fmt, args);
+    for (char *c = text; *c; c++)
+        if ((unsigned char) *c < 32 || *c == 127)
+            *c = ' ';
+    fg_logf(&b->p->log, level, "%s: %s", b->p->label, text);
+}
+
 int ag_builder_refuse(ag_builder *b, fg_status status, const char *fmt, ...)
 {
     if (!b || b->status != FG_OK)
         return -1;
-    char text[512];
     va_list args;
     va_start(args, fmt);
-    vsnprintf(text, sizeof text, fmt, args);
+    say(b, FG_LOG_ERROR, fmt, args);
     va_end(args);
-    fg_logf(&b->p->log, FG_LOG_ERROR, "%s: %s", b->p->label, text);
     b->status = status;
     return -1;
 }
 
 void ag_builder_warn(ag_builder *b, const char *fmt, ...)
 {
-    char text[512];
     va_list args;
     va_start(args, fmt);
-    vsnprintf(text, sizeof text, fmt, args);
-    va_end(args);
     if (b->warnings++ < AG_MAX_SCENE_WARNINGS)
-        fg_logf(&b->p->log, FG_LOG_WARN, "%s: %s", b->p->label, text);
+        say(b, FG_LOG_WARN, fmt, args);
+    va_end(args);
+}
+
+void ag_builder_info(ag_builder *b, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    say(b, FG_LOG_INFO, fmt, args);
+    va_end(args);
 }
 
 bool ag_builder_open(ag_builder *b)

@@ -103,8 +103,8 @@ static bool find_scene(gltf_loader *l)
     }
     int shown = m->default_scene >= 0 ? m->default_scene : 0;
     if (m->scenes_count > 1)
-        fg_logf(&l->b->p->log, FG_LOG_INFO, "%s: scene %d '%.60s' of %d is shown", l->b->p->label,
-                shown, m->scenes[shown].name, m->scenes_count);
+        ag_builder_info(l->b, "scene %d '%.60s' of %d is shown", shown, m->scenes[shown].name,
+                        m->scenes_count);
     for (int k = 0; k < m->scenes[shown].nodes.count; k++) {
         int node = m->scenes[shown].nodes.v[k];
         l->in_scene[node] = true;

@@ -291,9 +291,8 @@ static int material_of(gltf_loader *l, const gltf_primitive *p)
         ag_name_copy(m.name, "default");
         m.metallic = 1;
         l->metal = ag_builder_material(l->b, &m);
-        fg_logf(&l->b->p->log, FG_LOG_INFO,
-                "%s: primitives without a material get glTF's default, a white rough metal",
-                l->b->p->label);
+        ag_builder_info(l->b, "primitives without a material get glTF's default, a white rough "
+                              "metal");
     }
     return l->metal;
 }

@@ -52,8 +52,7 @@ static void say_what_is_missing(gltf_loader *l)
         if (lines[i].repair)
             ag_builder_warn(l->b, "%d %s", lines[i].count, lines[i].text);
         else
-            fg_logf(&l->b->p->log, FG_LOG_INFO, "%s: %d %s", l->b->p->label, lines[i].count,
-                    lines[i].text);
+            ag_builder_info(l->b, "%d %s", lines[i].count, lines[i].text);
     }
 }
 

@@ -123,6 +123,8 @@ fg_status ag_builder_set_label(ag_builder *b, const char *label);
 int ag_builder_refuse(ag_builder *b, fg_status status, const char *fmt, ...) FG_PRINTF(3, 4);
 // Counts a repair, and logs the first AG_MAX_SCENE_WARNINGS.
 void ag_builder_warn(ag_builder *b, const char *fmt, ...) FG_PRINTF(2, 3);
+// What is as it should be and still worth a line.
+void ag_builder_info(ag_builder *b, const char *fmt, ...) FG_PRINTF(2, 3);
 // Whether a call may go on: nothing refused yet, not built yet.
 bool ag_builder_open(ag_builder *b);
 // A new item at the end of an array of at most AG_MAX_SCENE_ITEMS, or NULL after a refusal.

@@ -93,7 +93,8 @@ static const broken cases[] = {
     { "\"textures\":[{\"sampler\":0}]", "texture 0: sampler 0 does not exist" },
     { "\"materials\":[{\"emissiveTexture\":{\"index\":1}}]",
       "material 0: texture 1 does not exist" },
-    { "\"materials\":[{\"emissiveFactor\":[-1,0,0]}]", "emission is -1" },
+    { "\"materials\":[{\"name\":\"two\\nlines\",\"emissiveFactor\":[-1,0,0]}]",
+      "material 'two lines': emission is -1" },
     { "\"images\":[{\"uri\":\"data:image/png;base64,AAAAAAAAAAAA\"}],\"textures\":[{\"source\":0}],"
       "\"materials\":[{\"emissiveTexture\":{\"index\":0}}]",
       "image 0 '': it is neither PNG nor JPEG" },
