@@ -11,9 +11,9 @@ static fg_status run_face(const fg_run *run, void *user)
 {
     const ag_face_user *face = user;
     const ag_rsm_pass *pass = face->owner;
-    const uint32_t program =
-        ag_gpu_scene_program(pass->gpu, &rsm_frag, AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK,
-                             pass->equal_solid_angle ? "FACE=1;EQUAL=1" : "FACE=1");
+    const uint32_t program = ag_gpu_scene_program(
+        pass->gpu, &rsm_frag, AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK | AG_FEATURE_GLOSSY,
+        pass->equal_solid_angle ? "FACE=1;EQUAL=1" : "FACE=1");
     if (!program)
         return FG_ERR_SHADER;
     fg_gl_storage(run, 2, pass->scene.faces);

@@ -303,6 +303,34 @@ static void many_sizes_are_resampled_and_said_so(void **state)
 }
 
 // Cofactor and winding of mirrored, sheared and tiny nodes; the normal faces the viewer.
+// A texture may take the metal away that the factor alone would leave: then the map has light to
+// reflect.
+static void metal_of_a_texture_counts_for_vpls(void **state)
+{
+    (void) state;
+    for (int metal = 0; metal < 2; metal++) {
+        const uint8_t texel[4] = { 0, 255, metal ? 255 : 0, 255 };
+        const ag_texture texture = { .name = "metal", .width = 1, .height = 1, .rgba = texel };
+        square_desc d = textured(&texture);
+        d.material.base_color_tex.texture = -1;
+        d.material.metallic_roughness_tex.texture = 0;
+        d.material.metallic = 1;
+        ag_scene *scene = square_scene(&d);
+        const ag_light light = { .kind = AG_LIGHT_POINT,
+                                 .position = { 0, 0, 1 },
+                                 .intensity = { 1, 1, 1 } };
+        assert_int_equal(ag_scene_add_light(scene, &light), FG_OK);
+        const char *const settings[] = { "rsm_size=16", "pattern=all", NULL };
+        capture c[] = { { .resource = "rsm.count" }, { 0 } };
+        image img = render_captured(scene, SIZE, SIZE, LAYER_INDIRECT, settings, c);
+        const uint32_t *count = c[0].bytes;
+        assert_true(metal ? count[0] == 0 : count[0] > 16);
+        image_finish(&img);
+        captures_finish(c);
+        ag_scene_destroy(scene);
+    }
+}
+
 static void normals_survive_any_node(void **state)
 {
     (void) state;
@@ -381,6 +409,7 @@ int main(void)
         cmocka_unit_test(masked_texels_are_not_there),
         cmocka_unit_test(masked_texels_cast_no_shadow),
         cmocka_unit_test(many_sizes_are_resampled_and_said_so),
+        cmocka_unit_test(metal_of_a_texture_counts_for_vpls),
         cmocka_unit_test(normals_survive_any_node),
         cmocka_unit_test(albedo_agrees_with_the_host),
     };
