@@ -86,9 +86,35 @@ static void print_notes(const cJSON *list)
     }
 }
 
+static const stability_case *const tables[] = { stability_light_cases, stability_frame_cases };
+
+static const stability_case *find_case(const char *name)
+{
+    for (int t = 0; t < FG_COUNT(tables); ++t)
+        for (const stability_case *k = tables[t]; k->name; ++k)
+            if (!strcmp(k->name, name))
+                return k;
+    return NULL;
+}
+
+static bool wanted(const options *o, const char *name)
+{
+    for (int i = 0; i < o->operand_count; ++i)
+        if (!strcmp(o->operands[i], name))
+            return true;
+    return !o->operand_count;
+}
+
+static int check_names(cli *c, const options *o)
+{
+    for (int i = 0; i < o->operand_count; ++i)
+        if (!find_case(o->operands[i]))
+            return cli_fail(c, EXIT_USAGE, "stability: there is no case '%s'", o->operands[i]);
+    return EXIT_DONE;
+}
+
 static int run_all(host *h, const setting *plugins, int count)
 {
-    const stability_case *const tables[] = { stability_light_cases, stability_frame_cases };
     char path[4096];
     int failed = 0, ran = 0;
     cJSON *doc = cJSON_CreateObject(), *list;
@@ -100,6 +126,8 @@ static int run_all(host *h, const setting *plugins, int count)
     printf("\n");
     for (int t = 0; t < FG_COUNT(tables); ++t)
         for (const stability_case *k = tables[t]; k->name; ++k) {
+            if (!wanted(h->o, k->name))
+                continue;
             printf("%3d %-26s %9.3g", k->row, k->name, k->bound);
             for (int i = 0; i < count; ++i, ++ran)
                 failed += run_case(h, k, &plugins[i], list);
@@ -132,7 +160,9 @@ static int run(cli *c, const options *o)
     setting plugins[CLI_MAX_GI + 1];
     int count = 0;
     host_init(&h, c, o);
-    int code = host_check_folder(c, o);
+    int code = check_names(c, o);
+    if (code == EXIT_DONE)
+        code = host_check_folder(c, o);
     if (code == EXIT_DONE)
         code = host_open_registry(&h);
     if (code == EXIT_DONE)
@@ -149,7 +179,7 @@ static int run(cli *c, const options *o)
 
 const command command_stability = {
     .name = "stability",
-    .operands = "",
+    .operands = "[CASE]...",
     .summary = "Runs the stiff and extreme cases for direct light and every plugin",
     .help =
         "Prints a table and writes stability.json to the folder that -o names; exit code 1 if any\n"
@@ -159,6 +189,7 @@ const command command_stability = {
         "bound is not kept, for the reason given and by no more than is known. --frames: length "
         "of\n"
         "the case in which nothing moves (300).",
+    .max_operands = -1,
     .option_names = " --gi --set --device --shader-dir --plugin-dir --frames --output ",
     .run = run,
 };

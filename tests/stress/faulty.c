@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Plugins with one fault each, by FAULT, that the stability table has to find.
+#include <gi/plugin.h>
+
+#include <math.h>
+
+#define SOUND 0
+#define NOT_FINITE 1
+#define NEGATIVE 2
+#define CHANGING 3
+#define UNWRITTEN 4
+
+static int created; // what makes one run differ from the next
+
+static fg_status create(const gi_env *env, const gi_value *values, void **self)
+{
+    (void) env;
+    (void) values;
+    *self = &created;
+    ++created;
+    return FG_OK;
+}
+
+static fg_status run(const fg_run *r, void *user)
+{
+    (void) r;
+    (void) user;
+    return FG_OK;
+}
+
+static void declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
+{
+    (void) self;
+    (void) in;
+    const fg_res light =
+        fg_texture(g, FAULT_NAME ".indirect", &(fg_tex_desc){ .format = FG_RGBA32F });
+    const float value = FAULT == NOT_FINITE ? INFINITY
+                        : FAULT == NEGATIVE ? -1
+                        : FAULT == CHANGING ? (float) created
+                                            : 0.5f;
+    const fg_pass_desc pass = {
+        .name = FAULT_NAME ".fill",
+        .reads = { { in->gbuffer.position } },
+        .writes = { { light, .load = FAULT == UNWRITTEN ? FG_LOAD_DISCARD : FG_LOAD_CLEAR,
+                      .clear = { value, value, value, 1 } } },
+        .run = run,
+    };
+    fg_passes(g, &pass, 1);
+    out->indirect = light;
+}
+
+static void destroy(void *self)
+{
+    (void) self;
+}
+
+static const gi_param no_params[] = { { .name = NULL } };
+static const gi_plugin plugin = {
+    .abi = GI_PLUGIN_ABI,
+    .name = FAULT_NAME,
+    .source = "none",
+    .summary = "for tests",
+    .params = no_params,
+    .create = create,
+    .declare = declare,
+    .destroy = destroy,
+};
+
+FG_API const gi_plugin *gi_plugin_entry(void);
+const gi_plugin *gi_plugin_entry(void)
+{
+    return &plugin;
+}
