@@ -6,13 +6,12 @@
 static fg_status run_gbuffer(const fg_run *run, void *user)
 {
     const ag_gbuffer_pass *pass = user;
-    const uint64_t features =
-        AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK | AG_FEATURE_GLOSSY | AG_FEATURE_EMISSIVE;
-    const uint32_t program = ag_gpu_scene_program(pass->gpu, &gbuffer_frag, features, NULL);
-    if (!program)
-        return FG_ERR_SHADER;
-    ag_gpu_scene_draw(pass->gpu, run, &pass->scene, program);
-    return FG_OK;
+    const ag_scene_draw draw = {
+        .fragment = &gbuffer_frag,
+        .features =
+            AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK | AG_FEATURE_GLOSSY | AG_FEATURE_EMISSIVE,
+    };
+    return ag_gpu_scene_draw(pass->gpu, run, &pass->scene, &draw);
 }
 
 void ag_gbuffer_declare(ag_gbuffer_pass *pass, fg_graph *g, const ag_gpu_scene *gpu,

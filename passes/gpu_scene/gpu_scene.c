@@ -104,22 +104,42 @@ static fg_status upload_materials(ag_gpu_scene *s)
     return done ? FG_OK : FG_ERR_MEMORY;
 }
 
-static fg_status upload_draws(ag_gpu_scene *s)
+static bool is_masked(const ag_scene *scene, int instance)
 {
-    const ag_scene *scene = s->scene;
-    const size_t count = (size_t) scene->instance_count;
-    draw_command *draws = calloc(count + 1, sizeof *draws);
-    uint32_t *ids = calloc(count + 1, sizeof *ids);
-    for (size_t i = 0; draws && ids && i < count; i++) {
+    const ag_primitive *p = &scene->primitives[scene->instances[instance].primitive];
+    return scene->materials[p->material].alpha == AG_ALPHA_MASK;
+}
+
+// Those without MASK first: a mask costs every fragment its texture and the early depth test.
+static int list_draws(const ag_scene *scene, bool masked, draw_command *draws)
+{
+    int n = 0;
+    for (int i = 0; i < scene->instance_count; i++) {
         const ag_primitive *p = &scene->primitives[scene->instances[i].primitive];
-        ids[i] = (uint32_t) i;
-        draws[i] = (draw_command){
+        if (is_masked(scene, i) != masked)
+            continue;
+        draws[n++] = (draw_command){
             .count = p->index_count,
             .instance_count = 1,
             .first_index = p->first_index,
             .base_vertex = (int32_t) p->first_vertex,
             .base_instance = (uint32_t) i,
         };
+    }
+    return n;
+}
+
+static fg_status upload_draws(ag_gpu_scene *s)
+{
+    const ag_scene *scene = s->scene;
+    const size_t count = (size_t) scene->instance_count;
+    draw_command *draws = calloc(count + 1, sizeof *draws);
+    uint32_t *ids = calloc(count + 1, sizeof *ids);
+    for (size_t i = 0; ids && i < count; i++)
+        ids[i] = (uint32_t) i;
+    if (draws) {
+        s->opaque_count = list_draws(scene, false, draws);
+        list_draws(scene, true, draws + s->opaque_count);
     }
     const bool done = draws && ids &&
                       create_buffer(s, BUFFER_DRAWS, count * sizeof *draws, draws, false) &&
@@ -343,8 +363,12 @@ ag_scene_res ag_gpu_scene_import(const ag_gpu_scene *s, fg_graph *g)
     };
 }
 
-uint32_t ag_gpu_scene_program(const ag_gpu_scene *s, const fg_gl_shader *fragment,
-                              uint64_t features, const char *defines)
+uint64_t ag_gpu_scene_features(const ag_gpu_scene *s)
+{
+    return s->features;
+}
+
+static uint32_t draw_program(const ag_gpu_scene *s, const ag_scene_draw *draw, uint64_t features)
 {
     static const struct {
         uint64_t feature;
@@ -355,27 +379,40 @@ uint32_t ag_gpu_scene_program(const ag_gpu_scene *s, const fg_gl_shader *fragmen
         { AG_FEATURE_GLOSSY, "GLOSSY=1;" },
         { AG_FEATURE_EMISSIVE, "EMISSIVE=1;" },
     };
+    const char *more = draw->defines ? draw->defines : "";
     char text[128];
-    int used =
-        snprintf(text, sizeof text, "%s%s", defines ? defines : "", defines && *defines ? ";" : "");
+    int used = snprintf(text, sizeof text, "%s%s", more, *more ? ";" : "");
     for (int i = 0; i < FG_COUNT(table) && used < (int) sizeof text; i++)
-        if (features & s->features & table[i].feature)
+        if (features & table[i].feature)
             used += snprintf(text + used, sizeof text - (size_t) used, "%s", table[i].define);
+    if (features & AG_FEATURE_TEXTURES && used < (int) sizeof text)
+        used += snprintf(text + used, sizeof text - (size_t) used, "BINS=%d",
+                         s->textures.bin_count > 0 ? s->textures.bin_count : 1);
     assert(used < (int) sizeof text);
-    const fg_gl_program_desc desc = { .shaders = { &scene_vert, fragment }, .defines = text };
+    const fg_gl_program_desc desc = { .shaders = { &scene_vert, draw->fragment }, .defines = text };
     return fg_gl_program(s->device, &desc);
 }
 
-uint64_t ag_gpu_scene_features(const ag_gpu_scene *s)
+// Draws `count` commands from `first` on.
+static fg_status draw_commands(const ag_gpu_scene *s, const ag_scene_draw *draw, uint64_t features,
+                               int first, int count)
 {
-    return s->features;
+    if (count == 0)
+        return FG_OK;
+    const uint32_t program = draw_program(s, draw, features & draw->features & s->features);
+    if (!program)
+        return FG_ERR_SHADER;
+    for (int i = 0; i < draw->integer_count; i++)
+        glProgramUniform1i(program, i, draw->integers[i]);
+    glUseProgram(program);
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                (const void *) ((size_t) first * sizeof(draw_command)), count, 0);
+    return FG_OK;
 }
 
-void ag_gpu_scene_draw(const ag_gpu_scene *s, const fg_run *run, const ag_scene_res *res,
-                       uint32_t program)
+fg_status ag_gpu_scene_draw(const ag_gpu_scene *s, const fg_run *run, const ag_scene_res *res,
+                            const ag_scene_draw *draw)
 {
-    if (s->scene->instance_count == 0)
-        return;
     fg_gl_uniform(run, 0, res->view);
     fg_gl_storage(run, 0, res->instances);
     fg_gl_storage(run, 1, res->materials);
@@ -383,7 +420,6 @@ void ag_gpu_scene_draw(const ag_gpu_scene *s, const fg_run *run, const ag_scene_
         glBindTextureUnit((GLuint) b, s->textures.bins[b].texture);
         glBindSampler((GLuint) b, s->textures.bins[b].sampler);
     }
-    glUseProgram(program);
     glBindVertexArray(s->vertex_array);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, fg_run_object(run, res->draws));
     glDisable(GL_CULL_FACE);
@@ -391,9 +427,14 @@ void ag_gpu_scene_draw(const ag_gpu_scene *s, const fg_run *run, const ag_scene_
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, NULL, s->scene->instance_count, 0);
+    const int all = s->scene->instance_count;
+    fg_status status =
+        draw_commands(s, draw, ~(uint64_t) AG_FEATURE_ALPHA_MASK, 0, s->opaque_count);
+    if (status == FG_OK)
+        status = draw_commands(s, draw, ~(uint64_t) 0, s->opaque_count, all - s->opaque_count);
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(0);
+    return status;
 }
 
 int ag_gpu_scene_face_count(const ag_gpu_scene *s)

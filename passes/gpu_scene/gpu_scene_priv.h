@@ -70,6 +70,7 @@ struct ag_gpu_scene {
     uint32_t buffers[BUFFER_COUNT];
     uint64_t sizes[BUFFER_COUNT];
     uint32_t vertex_array;
+    int opaque_count; // draws without MASK, which come first
     texture_set textures;
 
     // What the GPU holds now.

@@ -15,8 +15,10 @@ layout(std430, binding = 1) readonly buffer material_buffer
 };
 
 #ifdef TEXTURES
-#define AG_BINS 16 // AG_MAX_TEXTURE_BINS
-layout(binding = 0) uniform sampler2DArray bins[AG_BINS];
+#ifndef BINS
+#define BINS 16 // AG_MAX_TEXTURE_BINS
+#endif
+layout(binding = 0) uniform sampler2DArray bins[BINS];
 
 struct footprint {
     vec4 dx, dy; // of uv
@@ -59,8 +61,52 @@ vec4 lookup(ag_gpu_texture_ref t, footprint f)
     vec2 size, h, at;
     float lod;
     switch (t.place.x) { // a constant index each: neighbours may want different bins
-        AG_BIN(0) AG_BIN(1) AG_BIN(2) AG_BIN(3) AG_BIN(4) AG_BIN(5) AG_BIN(6) AG_BIN(7)
-        AG_BIN(8) AG_BIN(9) AG_BIN(10) AG_BIN(11) AG_BIN(12) AG_BIN(13) AG_BIN(14) AG_BIN(15)
+        AG_BIN(0)
+#if BINS > 1
+        AG_BIN(1)
+#endif
+#if BINS > 2
+        AG_BIN(2)
+#endif
+#if BINS > 3
+        AG_BIN(3)
+#endif
+#if BINS > 4
+        AG_BIN(4)
+#endif
+#if BINS > 5
+        AG_BIN(5)
+#endif
+#if BINS > 6
+        AG_BIN(6)
+#endif
+#if BINS > 7
+        AG_BIN(7)
+#endif
+#if BINS > 8
+        AG_BIN(8)
+#endif
+#if BINS > 9
+        AG_BIN(9)
+#endif
+#if BINS > 10
+        AG_BIN(10)
+#endif
+#if BINS > 11
+        AG_BIN(11)
+#endif
+#if BINS > 12
+        AG_BIN(12)
+#endif
+#if BINS > 13
+        AG_BIN(13)
+#endif
+#if BINS > 14
+        AG_BIN(14)
+#endif
+#if BINS > 15
+        AG_BIN(15)
+#endif
     default: return vec4(1.0);
     }
 }

@@ -3,7 +3,6 @@
 
 #include "shadow_frag.h"
 
-#include <epoxy/gl.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -11,16 +10,15 @@ static fg_status run_face(const fg_run *run, void *user)
 {
     const ag_face_user *face = user;
     const ag_shadow_pass *pass = face->owner;
-    const uint64_t features = ag_gpu_scene_features(pass->gpu) & AG_FEATURE_ALPHA_MASK
-                                  ? AG_FEATURE_ALPHA_MASK | AG_FEATURE_TEXTURES
-                                  : 0;
-    const uint32_t program = ag_gpu_scene_program(pass->gpu, &shadow_frag, features, "FACE=1");
-    if (!program)
-        return FG_ERR_SHADER;
+    const ag_scene_draw draw = {
+        .fragment = &shadow_frag,
+        .features = AG_FEATURE_ALPHA_MASK | AG_FEATURE_TEXTURES,
+        .defines = "FACE=1",
+        .integers = { face->face },
+        .integer_count = 1,
+    };
     fg_gl_storage(run, 2, pass->scene.faces);
-    glProgramUniform1i(program, 0, face->face);
-    ag_gpu_scene_draw(pass->gpu, run, &pass->scene, program);
-    return FG_OK;
+    return ag_gpu_scene_draw(pass->gpu, run, &pass->scene, &draw);
 }
 
 static int default_size(int faces)

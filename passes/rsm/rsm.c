@@ -3,7 +3,6 @@
 
 #include "rsm_frag.h"
 
-#include <epoxy/gl.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -11,17 +10,16 @@ static fg_status run_face(const fg_run *run, void *user)
 {
     const ag_face_user *face = user;
     const ag_rsm_pass *pass = face->owner;
-    const uint32_t program = ag_gpu_scene_program(
-        pass->gpu, &rsm_frag, AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK | AG_FEATURE_GLOSSY,
-        pass->equal_solid_angle ? "FACE=1;EQUAL=1" : "FACE=1");
-    if (!program)
-        return FG_ERR_SHADER;
+    const ag_scene_draw draw = {
+        .fragment = &rsm_frag,
+        .features = AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK | AG_FEATURE_GLOSSY,
+        .defines = pass->equal_solid_angle ? "FACE=1;EQUAL=1" : "FACE=1",
+        .integers = { face->face, pass->size },
+        .integer_count = 2,
+    };
     fg_gl_storage(run, 2, pass->scene.faces);
     fg_gl_storage(run, 3, pass->scene.lights);
-    glProgramUniform1i(program, 0, face->face);
-    glProgramUniform1i(program, 1, pass->size);
-    ag_gpu_scene_draw(pass->gpu, run, &pass->scene, program);
-    return FG_OK;
+    return ag_gpu_scene_draw(pass->gpu, run, &pass->scene, &draw);
 }
 
 static fg_res layer_texture(fg_graph *g, const ag_rsm_desc *desc, const char *what,

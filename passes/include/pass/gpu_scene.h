@@ -14,7 +14,7 @@ FG_BEGIN
 //     ag_scene_res res = ag_gpu_scene_import(gpu, g);       // once a declaration
 //     ... pass: .reads = { { res.instances, FG_USE_STORAGE }, ... AG_SCENE_DRAW_READS(res) }
 //     ag_gpu_scene_update(gpu, &view);                      // before every frame
-//     ... callback: ag_gpu_scene_draw(gpu, run, &res);
+//     ... callback: ag_gpu_scene_draw(gpu, run, &res, &(ag_scene_draw){ .fragment = &frag });
 //     ag_gpu_scene_destroy(gpu);
 //
 // Layouts that shaders read are in pass/scene_shared.h.
@@ -49,7 +49,7 @@ typedef struct ag_scene_res {
     fg_res vertices;  // ag_vertex[], node space (skinned ones: world minus origin)
     fg_res indices;   // uint32_t[]
     fg_res draw_ids;  // uint32_t[], 0, 1, 2, ...: the vertex attribute that finds the instance
-    fg_res draws;     // DrawElementsIndirectCommand[], one per instance
+    fg_res draws;     // DrawElementsIndirectCommand[], one per instance, those with MASK last
     fg_res instances; // ag_gpu_instance[]
     fg_res materials; // ag_gpu_material[]
     fg_res lights;    // ag_gpu_lights: count, then ag_gpu_light[]
@@ -67,19 +67,25 @@ FG_API ag_scene_res ag_gpu_scene_import(const ag_gpu_scene *s, fg_graph *g);
         (res).materials, FG_USE_STORAGE                                                            \
     }
 
-// The program that draws the scene into `fragment`, which includes passes/gpu_scene/material.glsl,
-// in the permutation that the scene needs: TEXTURES, MASK, GLOSSY, EMISSIVE as far as its features
-// go and `defines` allows ("FACE=1" draws through light face `layout(location = 0) uniform int`).
-// 0, with a log line, if it does not build. A lookup after the first call.
-FG_API uint32_t ag_gpu_scene_program(const ag_gpu_scene *s, const fg_gl_shader *fragment,
-                                     uint64_t features, const char *defines);
 FG_API uint64_t ag_gpu_scene_features(const ag_gpu_scene *s);
 
-// Draws every instance by one indirect multi-draw, with `program`, no culling, depth test
-// GREATER. Binds view (uniform 0), instances and materials (storage 0, 1), textures (units
-// 0 .. AG_MAX_TEXTURE_BINS - 1). Uniforms and other bindings of the program are the caller's.
-FG_API void ag_gpu_scene_draw(const ag_gpu_scene *s, const fg_run *run, const ag_scene_res *res,
-                              uint32_t program);
+// How a pass draws the scene. `fragment` includes passes/gpu_scene/material.glsl; its permutation
+// has TEXTURES, MASK, GLOSSY, EMISSIVE as far as the scene needs them and `features` asks for them.
+typedef struct ag_scene_draw {
+    const fg_gl_shader *fragment;
+    uint64_t features;   // ag_feature bits
+    const char *defines; // more; "FACE=1" draws through light face `integers[0]`. NULL: none.
+    int integers[2];     // uniforms at locations 0, 1, as many as integer_count says
+    int integer_count;
+} ag_scene_draw;
+
+// Draws every instance: those without MASK by one indirect multi-draw, then those with. No culling,
+// depth test GREATER. Binds view (uniform 0), instances and materials (storage 0, 1), textures
+// (units 0 .. AG_MAX_TEXTURE_BINS - 1); other bindings are the caller's.
+//
+// Errors: FG_ERR_SHADER, with a log line, if a permutation does not build.
+FG_API FG_NODISCARD fg_status ag_gpu_scene_draw(const ag_gpu_scene *s, const fg_run *run,
+                                                const ag_scene_res *res, const ag_scene_draw *draw);
 
 // Faces of all lights, in the order of the lights; constant while `s` lives.
 FG_API int ag_gpu_scene_face_count(const ag_gpu_scene *s);
