@@ -16,7 +16,7 @@ typedef struct budget {
     double too_slow_ms;       // and slower than this in the first visit only
 } budget;
 enum { SMALL = 1000 };
-static const budget quick_budget = { 256, 512, 64, 1, 3, 3, 300, 1000 };
+static const budget quick_budget = { 256, 256, 32, 1, 3, 3, 300, 1000 };
 static const budget full_budget = { 1024, 4096, 1024, 8, 5, 5, 2000, 60000 };
 
 typedef struct measure {
