@@ -68,11 +68,13 @@ static fg_status write_images(measure *m, image *result, const truths *t, int in
     return status == FG_OK ? image_write(&m->h.c->log, path, result, IMAGE_LIGHT) : status;
 }
 
-// The noise of the truth is independent of the result: their squares add, and can be taken apart.
+// The noise of the truth is independent of the result and of the truth: its square is in the
+// squares of both the error and the truth's RMS, and is taken out of both.
 static cJSON *error_json(const truths *t, int truth, const metrics *e)
 {
-    const double square = e->rmse * e->rmse - t->noise[truth] * t->noise[truth];
-    const double corrected = square > 0 ? sqrt(square) / t->rms[truth] : (double) NAN;
+    const double noise = t->noise[truth] * t->noise[truth];
+    const double square = e->rmse * e->rmse - noise, rms = t->rms[truth] * t->rms[truth] - noise;
+    const double corrected = square > 0 && rms > 0 ? sqrt(square / rms) : (double) NAN;
     cJSON *json = record_error(truth_names[truth], e);
     cJSON_AddNumberToObject(json, "noise", t->noise[truth]);
     cJSON_AddItemToObject(json, "rmse_rms_corrected",

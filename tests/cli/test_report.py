@@ -37,6 +37,7 @@ def records_have_the_shape_that_is_promised(folder):
             assert isinstance(r['error'][name], (int, float)), name
         if r['plugin'] == 'none':
             assert abs(r['error']['rmse_rms'] - 1) < 1e-6 and r['error']['energy_ratio'] == 0
+            assert all(abs(e['rmse_rms_corrected'] - 1) < 1e-6 for e in r['errors'])
         for name in [r['images']['result'], *r['images']['error']]:
             assert os.path.getsize(os.path.join(folder, name)) > 0
     with open(folder + '/report.csv', newline='') as f:
@@ -61,6 +62,19 @@ def shards_join_to_the_whole(folder):
         assert os.path.exists(os.path.join(folder, 'joined', b['images']['result']))
     assert os.path.getsize(folder + '/joined/report.html') > 10000
     fails(3, ['another folder has'], 'report', '--merge', parts[0], parts[0], '-o', folder + '/twice')
+
+
+def noise_of_the_truth_is_taken_out(folder):
+    # The same pictures against truths of 16 and of 1024 samples: what is corrected stays, what is
+    # not falls by more than the correction moves.
+    errors = []
+    for spp in [16, 1024]:
+        out = '%s/%d' % (folder, spp)
+        succeeds('report', 'cornell', '--gi', 'rsm', '--set', 'vpls=1024', '--size', '32x32', '--spp', spp, '-o', out)
+        errors.append([r['errors'][1] for r in load(out)['records'] if r['plugin'] == 'rsm'][0])
+    few, many = errors
+    assert few['rmse_rms'] > 1.5 * many['rmse_rms'], errors
+    assert abs(few['rmse_rms_corrected'] - many['rmse_rms_corrected']) < 0.5 * (few['rmse_rms'] - many['rmse_rms']), errors
 
 
 def a_set_parameter_is_not_swept(folder):
@@ -132,5 +146,6 @@ def the_page_opens_in_a_browser(folder):
 
 
 if __name__ == '__main__':
-    main([records_have_the_shape_that_is_promised, shards_join_to_the_whole, a_set_parameter_is_not_swept,
+    main([records_have_the_shape_that_is_promised, shards_join_to_the_whole, noise_of_the_truth_is_taken_out,
+          a_set_parameter_is_not_swept,
           broken_reports_are_refused, missing_plotters_are_said_and_no_failure, the_page_opens_in_a_browser])
