@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fg/gl.h>
+#include "gl_priv.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -301,12 +301,6 @@ fg_status fg_gl_context_make_current(fg_gl_context *ctx)
 
 // ---- listing --------------------------------------------------------------------
 
-static bool is_software_renderer(const char *renderer)
-{
-    return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
-           strstr(renderer, "swrast");
-}
-
 bool fg_gl_get_device_info(int n, fg_gl_device_info *info)
 {
     candidate all[MAX_CANDIDATES];
@@ -325,7 +319,7 @@ bool fg_gl_get_device_info(int n, fg_gl_device_info *info)
     if (open_context(c, false, &ctx, reason)) {
         snprintf(info->renderer, sizeof info->renderer, "%s", glGetString(GL_RENDERER));
         snprintf(info->version, sizeof info->version, "%s", glGetString(GL_VERSION));
-        info->software = is_software_renderer(info->renderer);
+        info->software = gl_is_software(info->renderer);
         restore_current(&before, ctx.display);
         eglDestroyContext(ctx.display, ctx.context);
     } else {

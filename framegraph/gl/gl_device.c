@@ -360,6 +360,8 @@ fg_status fg_gl_device_create(const fg_gl_device_desc *desc, fg_device **out)
     d->log = desc->log;
     d->timers.current = -1;
     begin_device(d);
+    d->software = gl_is_software(d->renderer);
+    d->timers.on_cpu = d->software && !desc->timestamps;
     d->programs = gl_programs_create(d, desc);
     if (!d->programs) {
         fg_logf(desc->log, FG_LOG_ERROR, "gl device: out of memory");
@@ -375,6 +377,17 @@ fg_status fg_gl_device_create(const fg_gl_device_desc *desc, fg_device **out)
 gl_device *gl_device_of(fg_device *dev)
 {
     return dev && dev->ops == &ops ? (gl_device *) dev : NULL;
+}
+
+bool gl_is_software(const char *renderer)
+{
+    return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
+           strstr(renderer, "swrast");
+}
+
+bool fg_gl_software(const fg_device *dev)
+{
+    return ((const gl_device *) dev)->software;
 }
 
 int fg_gl_error_count(const fg_device *dev)

@@ -56,6 +56,8 @@ typedef struct gl_timer_result {
 } gl_timer_result;
 
 typedef struct gl_timers {
+    bool on_cpu; // passes are timed by the clock, see gl_timer.c
+    uint64_t frame, frame_ns, pass_ns; // then: the frame under way, its start, the pass's
     gl_timer_frame frames[GL_TIMER_FRAMES];
     gl_timer_result *results;
     int capacity; // timers that the arrays hold
@@ -85,6 +87,7 @@ typedef struct gl_device {
     void *host_user;
     bool host_synchronous;
 
+    bool software;
     bool in_pass; // a debug group is open
     GLuint vao;
     GLuint samplers[GL_FILTER_COUNT];
@@ -98,6 +101,9 @@ gl_device *gl_device_of(fg_device *dev);
 
 // Reads the errors that are there. True if one of them was GL_OUT_OF_MEMORY.
 bool gl_drain_errors(gl_device *d);
+
+// Whether GL_RENDERER names one that runs on the CPU.
+bool gl_is_software(const char *renderer);
 
 void gl_label(const gl_device *d, GLenum kind, GLuint object, const char *label);
 

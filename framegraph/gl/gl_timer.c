@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 void gl_timers_forget(gl_device *d)
 {
@@ -20,6 +21,7 @@ void gl_timers_forget(gl_device *d)
 void gl_timers_destroy(gl_device *d)
 {
     gl_timers *t = &d->timers;
+    const bool on_cpu = t->on_cpu;
     for (int i = 0; i < GL_TIMER_FRAMES; ++i) {
         if (t->frames[i].queries)
             glDeleteQueries(2 * t->capacity, t->frames[i].queries);
@@ -27,7 +29,7 @@ void gl_timers_destroy(gl_device *d)
         free(t->frames[i].issued);
     }
     free(t->results);
-    *t = (gl_timers){ .current = -1 };
+    *t = (gl_timers){ .on_cpu = on_cpu, .current = -1 };
 }
 
 // Called in the first frame after a compile that brought more passes; what is under way is lost.
@@ -117,7 +119,9 @@ fg_status gl_timers_begin_frame(gl_device *d, uint64_t frame, int timers)
     }
     gl_timers_collect(d);
     t->current = -1;
-    if (timers == 0 || t->frames[t->next].last)
+    t->frame = frame;
+    t->frame_ns = 0;
+    if (t->on_cpu || timers == 0 || t->frames[t->next].last)
         return FG_OK; // the GPU is further behind than the ring is long: no timing of this frame
     t->current = t->next;
     t->next = (t->next + 1) % GL_TIMER_FRAMES;
@@ -130,9 +134,35 @@ void gl_timers_end_frame(gl_device *d)
     d->timers.current = -1;
 }
 
+// A software renderer puts timestamps into its rasteriser's queue, past which compute shaders run:
+// their passes would take no time. The CPU is the device then, so that waiting for it at both ends
+// of a pass idles nothing.
+static void mark_on_cpu(gl_timers *t, int timer, bool end)
+{
+    struct timespec clock;
+    glFinish();
+    clock_gettime(CLOCK_MONOTONIC, &clock);
+    const uint64_t now = (uint64_t) clock.tv_sec * 1000000000u + (uint64_t) clock.tv_nsec;
+    if (!t->frame_ns)
+        t->frame_ns = now;
+    if (!end)
+        t->pass_ns = now;
+    else
+        t->results[timer] = (gl_timer_result){
+            .start_ms = (double) (t->pass_ns - t->frame_ns) * 1e-6,
+            .ms = (double) (now - t->pass_ns) * 1e-6,
+            .frame = t->frame,
+            .valid = true,
+        };
+}
+
 void gl_timers_mark(gl_device *d, int timer, bool end)
 {
     gl_timers *t = &d->timers;
+    if (t->on_cpu && timer >= 0 && timer < t->capacity) {
+        mark_on_cpu(t, timer, end);
+        return;
+    }
     if (t->current < 0 || timer < 0 || timer >= t->capacity)
         return;
     gl_timer_frame *f = &t->frames[t->current];

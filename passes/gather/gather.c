@@ -5,14 +5,12 @@
 
 #include <epoxy/gl.h>
 #include <stdio.h>
-#include <string.h>
 
 // More receivers an invocation share each VPL's load. A CPU's vector unit gains up to 16; a GPU
 // runs out of registers first.
 static int suitable_block(fg_device *device)
 {
-    const char *renderer = fg_gl_renderer(device);
-    return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ? 16 : 4;
+    return fg_gl_software(device) ? 16 : 4;
 }
 
 static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)

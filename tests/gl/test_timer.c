@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "fixture.h"
 
+#include "count_comp.h"
+
 #include <stdio.h>
+#include <stdlib.h>
 
 static fg_status nothing(const fg_run *run, void *user)
 {
@@ -170,6 +173,7 @@ static void no_result_is_asked_for_before_it_is_there(void **state)
     assert_true(fg_graph_timing(g, 1, &t));
     assert_int_equal(t.frame, 0);
     lagging = false;
+    assert_int_equal(fg_gl_finish(f->device), FG_OK); // what lagged is there for sure
     run(g, 1);
     assert_int_equal(fg_gl_finish(f->device), FG_OK);
     epoxy_glGetQueryObjectui64v = real_result;
@@ -181,15 +185,70 @@ static void no_result_is_asked_for_before_it_is_there(void **state)
     fg_graph_destroy(g);
 }
 
+// ---- a software renderer --------------------------------------------------------------------
+
+static fg_status count_long(const fg_run *run, void *user)
+{
+    const fg_status status = use_program(run, &(fg_gl_program_desc){ { &count_comp } });
+    if (status)
+        return status;
+    fg_gl_storage(run, 0, *(const fg_res *) user);
+    glDispatchCompute(4000, 50, 1);
+    return FG_OK;
+}
+
+// 200 000 invocations on one counter take their time on any machine: more than the empty pass
+// before them, and most of the frame's.
+static void compute_passes_take_time(void **state)
+{
+    (void) state;
+    fixture f;
+    fixture_open(&f, NULL);
+    fg_graph *g = open_graph(&f, 0, 0);
+    fg_graph_begin(g, &(fg_frame_desc){ .width = 8, .height = 8 });
+    fg_res counter = fg_buffer(g, "counter", &(fg_buf_desc){ .size = 16 });
+    const fg_pass_desc passes[] = {
+        { .name = "empty", .kind = FG_KIND_COMPUTE, .run = nothing, .effect = FG_EFFECT_EXTERNAL },
+        { .name = "long",
+          .kind = FG_KIND_COMPUTE,
+          .writes = { { counter } },
+          .run = count_long,
+          .user = &counter,
+          .effect = FG_EFFECT_EXTERNAL },
+    };
+    fg_passes(g, passes, FG_COUNT(passes));
+    assert_int_equal(fg_graph_compile(g), FG_OK);
+    fg_timing empty, longer;
+    run(g, 3);
+    assert_int_equal(fg_gl_finish(f.device), FG_OK);
+    assert_true(fg_graph_timing(g, 0, &empty));
+    assert_true(fg_graph_timing(g, 1, &longer));
+    assert_true(empty.gpu_ms >= 0 && longer.gpu_ms > empty.gpu_ms);
+    assert_true(longer.gpu_start_ms >= empty.gpu_ms);
+    if (fg_gl_software(f.device))
+        assert_true(longer.gpu_ms > 0.1); // 200 000 atomic additions: 0.5 ns each is out of reach
+    fg_graph_destroy(g);
+    fixture_close(&f);
+}
+
+static int open_timestamps(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
+    fixture_open(f, &(fg_gl_device_desc){ .timestamps = true });
+    *state = f;
+    return 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_gl, close_gl)
+#define TEST(f) cmocka_unit_test_setup_teardown(f, open_timestamps, close_gl)
         TEST(timings_come_back_with_their_names),
         TEST(timings_of_a_new_declaration_are_its_own),
         TEST(more_passes_than_before_are_all_timed),
         TEST(timings_come_without_waiting_within_some_frames),
         TEST(no_result_is_asked_for_before_it_is_there),
+        cmocka_unit_test(compute_passes_take_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,6 +57,7 @@ typedef struct fg_gl_device_desc {
                             // embedded under) and rebuild on change. One that is not there is the
                             // embedded one, with a warning. NULL: the embedded ones.
     const char *cache_dir;  // Program binaries, where the driver has them. NULL: none.
+    bool timestamps;        // Time passes by GL timestamps on a software renderer too.
 } fg_gl_device_desc;
 
 // For the context that is current. If that is a debug context, driver messages go
@@ -97,6 +98,11 @@ FG_API void fg_gl_forget_texture(fg_device *dev, uint32_t object);
 FG_API int fg_gl_error_count(const fg_device *dev);
 FG_API const char *fg_gl_renderer(const fg_device *dev);
 FG_API const char *fg_gl_version(const fg_device *dev);
+
+// Whether the renderer runs on the CPU (llvmpipe, softpipe). Then a pass's gpu_ms is the time
+// between a glFinish() at either end of it, since such drivers' timestamps leave compute out;
+// fg_gl_device_desc.timestamps says otherwise.
+FG_API bool fg_gl_software(const fg_device *dev);
 
 // Waits for the GPU (benchmarks, captures; never in a frame), so that the timings
 // of the last frame are there. FG_ERR_DEVICE if the context is lost.
