@@ -67,7 +67,7 @@ void cli_progress(const char *what, double fraction);
 // Writes `text` to the file `path`, or to stdout if `path` is NULL.
 int cli_print(cli *c, const char *path, const char *text);
 
-// ---- tables -------------------------------------------------------------------------
+// ---- tables ----------------------------------------------------------------------------------
 
 typedef struct command {
     const char *name;

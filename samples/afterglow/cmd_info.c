@@ -45,10 +45,10 @@ static cJSON *camera_json(const ag_camera *camera)
 
 static double triangle_count(const ag_scene *scene)
 {
-    double count = 0;
+    uint64_t count = 0;
     for (int i = 0; i < scene->instance_count; ++i)
         count += scene->primitives[scene->instances[i].primitive].index_count / 3;
-    return count;
+    return (double) count;
 }
 
 static cJSON *scene_json(const host *h)

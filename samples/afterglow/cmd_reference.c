@@ -39,7 +39,7 @@ static void show_progress(void *user, double fraction)
     cli_progress(user, fraction);
 }
 
-static int trace(host *h, reference_desc *desc, image_kind kind)
+static int trace(host *h, reference_desc desc, image_kind kind)
 {
     image picture = { 0 };
     int code = host_open_scene(h, h->o->operands[0]);
@@ -48,9 +48,9 @@ static int trace(host *h, reference_desc *desc, image_kind kind)
     if (h->o->frame > 0)
         ag_scene_set_time(h->scene, h->o->frame / 60.0);
     const ag_camera camera = host_camera(h);
-    desc->scene = h->scene;
-    desc->camera = &camera;
-    fg_status status = reference_render(desc, &picture);
+    desc.scene = h->scene;
+    desc.camera = &camera;
+    fg_status status = reference_render(&desc, &picture);
     if (status == FG_OK)
         status = image_write(&h->c->log, h->o->output, &picture, kind);
     image_finish(&picture);
@@ -83,7 +83,7 @@ static int run(cli *c, const options *o)
     if (code == EXIT_DONE)
         code = host_check_output(c, o, true);
     if (code == EXIT_DONE)
-        code = trace(&h, &desc, kind);
+        code = trace(&h, desc, kind);
     cli_progress(what, 1);
     host_finish(&h);
     return code;

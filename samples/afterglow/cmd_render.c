@@ -75,7 +75,7 @@ static int run(cli *c, const options *o)
     host h;
     setting settings[CLI_MAX_GI];
     int count = 0;
-    renderer_layer layer;
+    renderer_layer layer = LAYER_FINAL;
     host_init(&h, c, o);
     int code = check(&h, &layer);
     if (code == EXIT_DONE)

@@ -9,7 +9,7 @@ static int check(cli *c, const options *o)
 {
     static const char *const folders[] = { "images", "graphs", "plots" };
     char path[4096];
-    if (o->budget && strcmp(o->budget, "quick") && strcmp(o->budget, "full"))
+    if (o->budget && strcmp(o->budget, "quick") != 0 && strcmp(o->budget, "full") != 0)
         return cli_fail(c, EXIT_USAGE, "--budget: is '%s', must be quick or full", o->budget);
     if (o->merge && !o->operand_count)
         return cli_fail(c, EXIT_USAGE, "--merge: the folders to join are missing");

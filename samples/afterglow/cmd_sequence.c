@@ -43,7 +43,8 @@ static int check(host *h, renderer_layer *layer)
     const char *format = h->o->format;
     if (!h->o->frames)
         return cli_fail(h->c, EXIT_USAGE, "--frames: is missing");
-    if (format && strcmp(format, "png") && strcmp(format, "exr") && strcmp(format, "pfm"))
+    if (format && strcmp(format, "png") != 0 && strcmp(format, "exr") != 0 &&
+        strcmp(format, "pfm") != 0)
         return cli_fail(h->c, EXIT_USAGE, "--format: is '%s', must be png, exr or pfm", format);
     const int code = host_layer(h->c, h->o->layer, LAYER_FINAL, layer);
     return code != EXIT_DONE ? code : host_check_folder(h->c, h->o);
@@ -54,7 +55,7 @@ static int run(cli *c, const options *o)
     host h;
     setting settings[CLI_MAX_GI];
     int count = 0;
-    renderer_layer layer;
+    renderer_layer layer = LAYER_FINAL;
     host_init(&h, c, o);
     int code = check(&h, &layer);
     if (code == EXIT_DONE)

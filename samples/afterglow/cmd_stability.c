@@ -86,11 +86,12 @@ static void print_notes(const cJSON *list)
     }
 }
 
-static const stability_case *const tables[] = { stability_light_cases, stability_frame_cases };
+static const stability_case *const tables[] = { stability_light_cases, stability_frame_cases,
+                                                NULL };
 
 static const stability_case *find_case(const char *name)
 {
-    for (int t = 0; t < FG_COUNT(tables); ++t)
+    for (int t = 0; tables[t]; ++t)
         for (const stability_case *k = tables[t]; k->name; ++k)
             if (!strcmp(k->name, name))
                 return k;
@@ -124,7 +125,7 @@ static int run_all(host *h, const setting *plugins, int count)
     for (int i = 0; i < count; ++i)
         printf(" %20s", setting_name(&plugins[i]));
     printf("\n");
-    for (int t = 0; t < FG_COUNT(tables); ++t)
+    for (int t = 0; tables[t]; ++t)
         for (const stability_case *k = tables[t]; k->name; ++k) {
             if (!wanted(h->o, k->name))
                 continue;

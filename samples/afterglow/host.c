@@ -42,7 +42,7 @@ int host_open_device(host *h)
     return cli_status(h->c, status);
 }
 
-// ---- scene ------------------------------------------------------------------------------
+// ---- scene -----------------------------------------------------------------------------------
 
 static void unit(double v[3])
 {
@@ -162,7 +162,7 @@ int host_open_scene(host *h, const char *name)
     return add_default_light(h);
 }
 
-// ---- plugins ------------------------------------------------------------------------------
+// ---- plugins ---------------------------------------------------------------------------------
 
 void setting_finish(setting *s)
 {
@@ -249,7 +249,8 @@ int host_setting(host *h, const char *name, setting *out)
             continue;
         if (gi_params_set(&h->c->log, plugin, out->values, assignment) != FG_OK) {
             setting_finish(out);
-            return cli_fail(h->c, EXIT_USAGE, "--set: %s is refused", h->o->set[i]);
+            cli_fail(h->c, EXIT_USAGE, "--set: %s is refused", h->o->set[i]);
+            return EXIT_USAGE;
         }
     }
     return EXIT_DONE;
@@ -354,7 +355,7 @@ fg_status host_renderer(host *h, const renderer_desc *desc, renderer **out)
                        &(setting){ .plugin = desc->plugin, .values = (gi_value *) desc->values });
 }
 
-// ---- layers and outputs ---------------------------------------------------------------------
+// ---- layers and outputs ----------------------------------------------------------------------
 
 int host_layer(cli *c, const char *name, renderer_layer fallback, renderer_layer *out)
 {

@@ -4,13 +4,22 @@
 #include <string.h>
 
 static const command *const commands[] = {
-    &command_render,    &command_sequence, &command_reference, &command_compare, &command_report,
-    &command_stability, &command_graph,    &command_plugins,   &command_scenes,  &command_info,
+    &command_render,
+    &command_sequence,
+    &command_reference,
+    &command_compare,
+    &command_report,
+    &command_stability,
+    &command_graph,
+    &command_plugins,
+    &command_scenes,
+    &command_info,
+    NULL,
 };
 
 static const command *find_command(const char *name)
 {
-    for (int i = 0; i < FG_COUNT(commands); ++i)
+    for (int i = 0; commands[i]; ++i)
         if (!strcmp(commands[i]->name, name))
             return commands[i];
     return NULL;
@@ -21,7 +30,7 @@ static void print_help(void)
     printf("afterglow %s: indirect light as plugins of a frame graph\n\n"
            "usage: afterglow COMMAND [OPTION]... [OPERAND]...\n\ncommands:\n",
            AFTERGLOW_VERSION);
-    for (int i = 0; i < FG_COUNT(commands); ++i)
+    for (int i = 0; commands[i]; ++i)
         printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
     printf(
         "\n'afterglow COMMAND --help' says more. SCENE is a built-in name (afterglow scenes), a\n"

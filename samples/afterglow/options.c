@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// ---- parts of values ----------------------------------------------------------------
+// ---- parts of values -------------------------------------------------------------------------
 
 bool parse_int(const char *text, long min, long max, long *out)
 {
@@ -36,7 +36,7 @@ bool parse_list(const char *text, int count, double *out)
     return true;
 }
 
-// ---- options with a grammar of their own ----------------------------------------------
+// ---- options with a grammar of their own -----------------------------------------------------
 
 static const char *const debug_names[] = { "poison", "no-sharing", "random-order", "keep-all" };
 static const unsigned debug_bits[] = { FG_DEBUG_POISON, FG_DEBUG_NO_SHARING, FG_DEBUG_RANDOM_ORDER,
@@ -106,7 +106,7 @@ static bool add_word(const char **words, int *count, int max, const char *text)
     return true;
 }
 
-// ---- the table --------------------------------------------------------------------------
+// ---- the table -------------------------------------------------------------------------------
 
 typedef enum option_id {
     OPT_GI,
@@ -277,7 +277,7 @@ static bool apply_word(options *o, option_id id, const char *v)
     }
 }
 
-// ---- parsing ----------------------------------------------------------------------------
+// ---- parsing ---------------------------------------------------------------------------------
 
 // `list` has names with a space before and after each.
 static bool listed(const char *list, const char *name)

@@ -12,7 +12,7 @@ static int split(const char *text, char copy[MAX_TEXT], const char *parts[MAX_PA
     int count = 0;
     if (strlen(text) >= MAX_TEXT)
         return 0;
-    strcpy(copy, text);
+    memcpy(copy, text, strlen(text) + 1);
     for (char *at = copy; at; ++count) {
         if (count == MAX_PARTS)
             return 0;

@@ -15,7 +15,7 @@ double now_ms(void)
     return (double) t.tv_sec * 1e3 + (double) t.tv_nsec * 1e-6;
 }
 
-// ---- timing -------------------------------------------------------------------------------
+// ---- timing ----------------------------------------------------------------------------------
 
 fg_status timing_create(int capacity, timing *out)
 {
@@ -121,7 +121,7 @@ double timing_quantile(const double *values, int count, double q)
     return result;
 }
 
-// ---- JSON -----------------------------------------------------------------------------------
+// ---- JSON ------------------------------------------------------------------------------------
 
 static void add_number(cJSON *object, const char *name, double value)
 {

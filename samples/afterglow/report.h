@@ -47,9 +47,15 @@ typedef struct truths {
 } truths;
 extern const char *const truth_names[REPORT_TRUTHS]; // "path1", "path1_unshadowed"
 
-// Renders them, writes their pictures and adds them to `scene_json`. Exit codes from here on.
-int truths_render(host *h, const char *folder, cJSON *scene_json, int width, int height,
-                  const int spp[REPORT_TRUTHS], truths *out);
+typedef struct truths_desc {
+    const char *folder; // where their pictures go
+    cJSON *scene_json;  // what they are added to
+    int width, height;
+    int spp[REPORT_TRUTHS];
+} truths_desc;
+
+// Renders them and writes their pictures. Exit codes from here on.
+int truths_render(host *h, const truths_desc *desc, truths *out);
 void truths_finish(truths *t);
 
 int report_measure(cli *c, const options *o, cJSON **doc);

@@ -19,7 +19,7 @@ typedef struct page {
     int scene_number;
 } page;
 
-// ---- tables ---------------------------------------------------------------------------------
+// ---- tables ----------------------------------------------------------------------------------
 
 static void number_cell(FILE *f, double value, const char *format)
 {
@@ -110,7 +110,7 @@ static void write_table(const page *p)
             truth_names[0]);
 }
 
-// ---- plots and pictures -------------------------------------------------------------------------
+// ---- plots and pictures ----------------------------------------------------------------------
 
 static fg_status write_plot(const page *p, const char *what, const char *caption)
 {
@@ -247,8 +247,7 @@ static fg_status write_cards(const page *p)
     return status;
 }
 
-// ---- graphs
-// ---------------------------------------------------------------------------------------
+// ---- graphs ----------------------------------------------------------------------------------
 
 static void write_left_out(const page *p, const char *plugin)
 {
@@ -256,7 +255,7 @@ static void write_left_out(const page *p, const char *plugin)
     cJSON_ArrayForEach(record, cJSON_GetObjectItem(p->doc, "records"))
     {
         const cJSON *list = cJSON_GetObjectItem(record, "left_out");
-        if (!of_scene(p, record) || strcmp(json_text(record, "plugin"), plugin) ||
+        if (!of_scene(p, record) || strcmp(json_text(record, "plugin"), plugin) != 0 ||
             !cJSON_GetArraySize(list))
             continue;
         fputs("<p>Left out:</p><ul>", p->f);
@@ -286,7 +285,7 @@ static fg_status write_graphs(const page *p)
         snprintf(path, sizeof path, "%s/%s.svg", p->folder, json_text(graph, "dot"));
         snprintf(prefix, sizeof prefix, "s%d-g%d-", p->scene_number, n++);
         fprintf(p->f, "<details%s><summary>", n == 1 ? "" : " open");
-        html_text(p->f, strcmp(plugin, "none") ? plugin : "direct light alone");
+        html_text(p->f, strcmp(plugin, "none") != 0 ? plugin : "direct light alone");
         fputs("</summary><div class=\"plot graph\">", p->f);
         if (status == FG_OK)
             status = html_svg(p->f, p->log, path, prefix);
@@ -297,8 +296,7 @@ static fg_status write_graphs(const page *p)
     return status;
 }
 
-// ---- the page
-// ---------------------------------------------------------------------------------------
+// ---- the page --------------------------------------------------------------------------------
 
 static void write_head(const page *p)
 {

@@ -32,7 +32,7 @@ typedef struct measure {
     int scene_number;
 } measure;
 
-// ---- error --------------------------------------------------------------------------------
+// ---- error -----------------------------------------------------------------------------------
 
 static fg_status write_map(measure *m, const image *result, const truths *t, int truth, cJSON *list,
                            const char *stem)
@@ -161,7 +161,7 @@ static fg_status measure_error(measure *m, const truths *t)
     return status;
 }
 
-// ---- run time -------------------------------------------------------------------------------
+// ---- run time --------------------------------------------------------------------------------
 
 // The rest of a record, from the renderer as it stands after the last visit.
 static void complete_record(measure *m, renderer *r, int k)
@@ -215,7 +215,7 @@ static fg_status measure_time(measure *m)
     return status;
 }
 
-// ---- scenes -----------------------------------------------------------------------------------
+// ---- scenes ----------------------------------------------------------------------------------
 
 // An empty record for each job that is this shard's and that the scene serves.
 static fg_status choose_jobs(measure *m)
@@ -265,7 +265,7 @@ static fg_status measure_jobs(measure *m, const truths *t)
 static int measure_scene(measure *m, const char *name)
 {
     truths t = { 0 };
-    double triangles = 0;
+    uint64_t triangles = 0;
     int code = host_open_scene(&m->h, name);
     if (code != EXIT_DONE)
         return code;
@@ -274,7 +274,7 @@ static int measure_scene(measure *m, const char *name)
     m->scene = cJSON_CreateObject();
     cJSON_AddItemToArray(cJSON_GetObjectItem(m->doc, "scenes"), m->scene);
     cJSON_AddStringToObject(m->scene, "name", name);
-    cJSON_AddNumberToObject(m->scene, "triangles", triangles);
+    cJSON_AddNumberToObject(m->scene, "triangles", (double) triangles);
     cJSON_AddArrayToObject(m->scene, "not_served");
     cJSON_AddArrayToObject(m->scene, "graphs");
     int spp[REPORT_TRUTHS];
@@ -282,7 +282,14 @@ static int measure_scene(measure *m, const char *name)
     spp[1] = (spp[0] + 1) / 2; // a ray that nothing stops costs more
     for (int i = 0; i < REPORT_TRUTHS && m->h.o->spp > 0; ++i)
         spp[i] = m->h.o->spp;
-    code = truths_render(&m->h, m->folder, m->scene, m->width, m->height, spp, &t);
+    const truths_desc desc = {
+        .folder = m->folder,
+        .scene_json = m->scene,
+        .width = m->width,
+        .height = m->height,
+        .spp = { spp[0], spp[1] },
+    };
+    code = truths_render(&m->h, &desc, &t);
     if (code == EXIT_DONE)
         code = cli_status(m->h.c, measure_jobs(m, &t));
     truths_finish(&t);

@@ -35,7 +35,7 @@ static int copy_named(cli *c, const options *o, const char *from, const char *na
 {
     char source[4096], target[4096];
     if (!name[0] || name[0] == '/' || strstr(name, "..") ||
-        (strncmp(name, "images/", 7) && strncmp(name, "graphs/", 7)))
+        (strncmp(name, "images/", 7) != 0 && strncmp(name, "graphs/", 7) != 0))
         return cli_fail(c, EXIT_INPUT,
                         "%s/report.json: names the file '%s', must be below images or "
                         "graphs",
@@ -169,7 +169,7 @@ static int join(cli *c, const options *o, const char *from, cJSON *doc, cJSON *p
 {
     cJSON *records = cJSON_GetObjectItem(part, "records");
     if (!cJSON_Compare(cJSON_GetObjectItem(doc, "size"), cJSON_GetObjectItem(part, "size"), 1) ||
-        strcmp(json_text(doc, "budget"), json_text(part, "budget")))
+        strcmp(json_text(doc, "budget"), json_text(part, "budget")) != 0)
         return cli_fail(c, EXIT_INPUT, "%s/report.json: size and budget must be those of %s", from,
                         o->operands[0]);
     if (!cJSON_Compare(cJSON_GetObjectItem(doc, "device"), cJSON_GetObjectItem(part, "device"), 1))

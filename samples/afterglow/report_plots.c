@@ -17,7 +17,7 @@ extern char **environ;
 static const char *const palette[] = { "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
                                        "#56b4e9", "#7f3c8d", "#a5aa00", "#666666", "#00429d" };
 
-// ---- programs -----------------------------------------------------------------------------------
+// ---- programs --------------------------------------------------------------------------------
 
 // Runs a program without output. 0, ENOENT where there is no such program, -1 where it failed.
 static int run_program(const char *const *argv)
@@ -55,7 +55,7 @@ static void add_note(cJSON *doc, const char *program, int result, const char *la
     cli_warn("report: %s", note);
 }
 
-// ---- gnuplot scripts ----------------------------------------------------------------------------
+// ---- gnuplot scripts -------------------------------------------------------------------------
 
 // Text in double quotes of a script.
 static void quoted(FILE *f, const char *text)
@@ -78,6 +78,14 @@ static bool of_scene(const cJSON *record, const char *scene)
     return !strcmp(json_text(record, "scene"), scene);
 }
 
+static bool listed(const char *const *names, int count, const char *name)
+{
+    for (int i = 0; i < count; ++i)
+        if (!strcmp(names[i], name))
+            return true;
+    return false;
+}
+
 // Plugins of the scene in the order of records.
 enum { MAX_PLUGINS = 64 };
 static int list_plugins(const cJSON *doc, const char *scene, const char *names[MAX_PLUGINS])
@@ -87,10 +95,7 @@ static int list_plugins(const cJSON *doc, const char *scene, const char *names[M
     cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
     {
         const char *name = json_text(record, "plugin");
-        int i = 0;
-        while (i < count && strcmp(names[i], name))
-            ++i;
-        if (of_scene(record, scene) && i == count && count < MAX_PLUGINS)
+        if (of_scene(record, scene) && count < MAX_PLUGINS && !listed(names, count, name))
             names[count++] = name;
     }
     return count;
@@ -216,8 +221,7 @@ static fg_status write_front(FILE *f, const cJSON *doc, const cJSON *scene, int 
     return status;
 }
 
-// ---- bars: passes of every record
-// -----------------------------------------------------------------
+// ---- bars: passes of every record ------------------------------------------------------------
 
 enum { MAX_STACK = 14 };
 typedef struct stack {
@@ -245,7 +249,7 @@ static int list_passes(const cJSON *doc, const char *scene, stack *out, int max)
             const char *name = json_text(pass, "name");
             const double ms = report_pass_ms(pass);
             int i = 0;
-            while (i < count && strcmp(out[i].name, name))
+            while (i < count && strcmp(out[i].name, name) != 0)
                 ++i;
             if (i == count && count < max)
                 out[count++] = (stack){ name, 0 };
@@ -314,8 +318,7 @@ static fg_status write_bars(FILE *f, const cJSON *doc, const cJSON *scene, const
     return FG_OK;
 }
 
-// ---- files
-// ----------------------------------------------------------------------------------------
+// ---- files -----------------------------------------------------------------------------------
 
 // Writes the script by `truth` (-1: bars) and runs gnuplot on it; the SVG is what tells success.
 static fg_status plot(const fg_log *log, const char *folder, cJSON *doc, const cJSON *scene,

@@ -23,20 +23,21 @@ static void show_progress(void *user, double fraction)
     cli_progress(user, fraction);
 }
 
-static fg_status trace(host *h, const ag_camera *camera, const image *size, int truth, int part,
-                       int spp, image *out)
+// One truth with one seed.
+static fg_status trace(host *h, const truths_desc *d, int truth, int part, image *out)
 {
     char what[96];
+    const ag_camera camera = host_camera(h);
     snprintf(what, sizeof what, "%s: %s, half %d of 2", h->scene_name, truth_names[truth],
              part + 1);
     const reference_desc desc = {
         .log = &h->c->log,
         .scene = h->scene,
-        .camera = camera,
-        .width = size->width,
-        .height = size->height,
+        .camera = &camera,
+        .width = d->width,
+        .height = d->height,
         .bounces = 1,
-        .spp = spp,
+        .spp = (d->spp[truth] + 1) / 2,
         .seed = 2 * h->o->seed + (uint64_t) part,
         .layer = REFERENCE_INDIRECT,
         .unshadowed_bounce = truth == 1,
@@ -50,18 +51,16 @@ static fg_status trace(host *h, const ag_camera *camera, const image *size, int 
 
 // Two halves of different seeds: their mean is the truth and half the RMS of their difference
 // is what noise is left in it, since the two are independent.
-static fg_status two_halves(host *h, const image *size, int truth, int spp, image *out,
-                            double *noise)
+static fg_status two_halves(host *h, const truths_desc *d, int truth, image *out, double *noise)
 {
-    const ag_camera camera = host_camera(h);
     image other = { 0 };
     double sum = 0;
-    fg_status status = trace(h, &camera, size, truth, 0, (spp + 1) / 2, out);
+    fg_status status = trace(h, d, truth, 0, out);
     if (status == FG_OK)
-        status = trace(h, &camera, size, truth, 1, (spp + 1) / 2, &other);
+        status = trace(h, d, truth, 1, &other);
     for (size_t i = 0; status == FG_OK && i < value_count(out); ++i) {
-        const double d = (double) out->rgb[i] - (double) other.rgb[i];
-        sum += d * d;
+        const double diff = (double) out->rgb[i] - (double) other.rgb[i];
+        sum += diff * diff;
         out->rgb[i] = 0.5f * (out->rgb[i] + other.rgb[i]);
     }
     if (status == FG_OK)
@@ -136,24 +135,23 @@ static fg_status add_truth(host *h, const char *folder, cJSON *list, int truth, 
     return write_picture(h, folder, name, &t->picture[truth], t->exposure);
 }
 
-int truths_render(host *h, const char *folder, cJSON *scene_json, int width, int height,
-                  const int spp[REPORT_TRUTHS], truths *out)
+int truths_render(host *h, const truths_desc *desc, truths *out)
 {
-    const image size = { .width = width, .height = height };
     fg_status status = FG_OK;
-    cJSON *list = cJSON_AddArrayToObject(scene_json, "references");
+    cJSON *list = cJSON_AddArrayToObject(desc->scene_json, "references");
     *out = (truths){ 0 };
     for (int i = 0; i < REPORT_TRUTHS && status == FG_OK; ++i) {
-        status = two_halves(h, &size, i, spp[i], &out->picture[i], &out->noise[i]);
+        status = two_halves(h, desc, i, &out->picture[i], &out->noise[i]);
         if (status != FG_OK)
             break;
         if (i == 0)
             out->exposure = choose_exposure(&out->picture[0]);
-        status = add_truth(h, folder, list, i, out);
+        status = add_truth(h, desc->folder, list, i, out);
         cJSON *entry = cJSON_GetArrayItem(list, i);
-        cJSON_AddNumberToObject(entry, "spp", 2 * ((spp[i] + 1) / 2));
+        const int half = (desc->spp[i] + 1) / 2;
+        cJSON_AddNumberToObject(entry, "spp", 2.0 * half);
         cJSON_AddNumberToObject(entry, "noise", out->noise[i]);
     }
-    cJSON_AddNumberToObject(scene_json, "exposure", out->exposure);
+    cJSON_AddNumberToObject(desc->scene_json, "exposure", out->exposure);
     return cli_status(h->c, status);
 }

@@ -62,7 +62,7 @@ bool report_on_front(const cJSON *doc, const cJSON *record, int truth)
     return true;
 }
 
-// ---- CSV --------------------------------------------------------------------------------------
+// ---- CSV -------------------------------------------------------------------------------------
 
 static void csv_text(FILE *f, const char *text)
 {
@@ -157,7 +157,7 @@ fg_status report_csv(const fg_log *log, const char *folder, const cJSON *doc)
     return file_end(log, &out, true);
 }
 
-// ---- all of it ----------------------------------------------------------------------------------
+// ---- all of it -------------------------------------------------------------------------------
 
 int report_write(cli *c, const char *folder, cJSON *doc)
 {

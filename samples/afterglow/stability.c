@@ -8,7 +8,7 @@
 
 enum { DEFAULT_SIZE = 48 };
 
-// ---- what every buffer must keep ----------------------------------------------------------------
+// ---- what every buffer must keep -------------------------------------------------------------
 
 // Light is never negative. Buffers of it are known by their names.
 static bool holds_light(const char *name)
@@ -66,7 +66,7 @@ static void check_texture(stability *s, const fg_written *w)
 static void check_buffer(stability *s, const fg_written *w)
 {
     const size_t length = strlen(w->resource);
-    if (length < 5 || strcmp(w->resource + length - 5, ".vpls"))
+    if (length < 5 || strcmp(w->resource + length - 5, ".vpls") != 0)
         return;
     float *values = malloc(w->buf->size);
     if (!values) {
@@ -81,7 +81,7 @@ static void check_buffer(stability *s, const fg_written *w)
 static void put_nan(stability *s, const fg_written *w)
 {
     const float value[4] = { NAN, NAN, NAN, 1 };
-    if (strcmp(w->resource, "gbuffer.normal"))
+    if (strcmp(w->resource, "gbuffer.normal") != 0)
         return;
     s->poked = true;
     glTextureSubImage2D(w->object, 0, w->tex->width / 2, w->tex->height / 2, 1, 1, GL_RGBA,
@@ -100,8 +100,7 @@ static void inspect(void *user, const fg_written *w)
         check_buffer(s, w);
 }
 
-// ---- frames
-// ---------------------------------------------------------------------------------------
+// ---- frames ----------------------------------------------------------------------------------
 
 fg_status stability_render(stability *s, const shot *what, image *out)
 {

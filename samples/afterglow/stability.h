@@ -51,7 +51,7 @@ typedef struct stability_case {
 // End at a NULL name: where light and surfaces are odd, and where the frame is.
 extern const stability_case stability_light_cases[], stability_frame_cases[];
 
-// ---- figures -----------------------------------------------------------------------------
+// ---- figures ---------------------------------------------------------------------------------
 
 size_t stability_values(const image *img); // 3 a pixel
 double stability_mean(const image *img);
@@ -59,7 +59,7 @@ double stability_most(const image *img);
 double stability_change(double a, double b); // |a - b| / |b|
 long stability_differing(const image *a, const image *b);
 
-// ---- scenes -------------------------------------------------------------------------------
+// ---- scenes ----------------------------------------------------------------------------------
 
 // A closed room of 1 m about the origin, its walls seen from inside, and a camera at +z.
 typedef struct room {

@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-// ---- figures of pictures
-// ----------------------------------------------------------------------------
+// ---- figures of pictures ---------------------------------------------------------------------
 
 size_t stability_values(const image *img)
 {
@@ -33,16 +32,22 @@ double stability_change(double a, double b)
     return a == b ? 0 : fabs(a - b) / fmax(fabs(b), 1e-30);
 }
 
+static uint32_t bits(float value)
+{
+    uint32_t out;
+    memcpy(&out, &value, sizeof out);
+    return out;
+}
+
 long stability_differing(const image *a, const image *b)
 {
     long count = 0;
     for (size_t i = 0; i < stability_values(a); ++i)
-        count += memcmp(&a->rgb[i], &b->rgb[i], sizeof a->rgb[i]) != 0;
+        count += bits(a->rgb[i]) != bits(b->rgb[i]);
     return count;
 }
 
-// ---- a room, a shot, a figure
-// ---------------------------------------------------------------------
+// ---- a room, a shot, a figure ----------------------------------------------------------------
 
 fg_status stability_shoot(stability *s, const room *what, shot view, image *out)
 {

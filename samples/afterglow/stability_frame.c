@@ -11,8 +11,7 @@
 static const shot radiance = { .layer = LAYER_RADIANCE };
 static const shot indirect = { .layer = LAYER_INDIRECT };
 
-// ---- rows 17 to 21
-// ----------------------------------------------------------------------------------------
+// ---- rows 17 to 21 ---------------------------------------------------------------------------
 
 static fg_status emissive_alone(stability *s, double *out)
 {
@@ -94,8 +93,7 @@ static fg_status spot_270(stability *s, double *out)
     return spot_of(s, 270, out);
 }
 
-// ---- rows 25 and 26
-// -------------------------------------------------------------------------------------
+// ---- rows 25 and 26 --------------------------------------------------------------------------
 
 static fg_status lit_room(stability *s, shot view, stability_figure_fn figure, double *out)
 {
@@ -189,8 +187,7 @@ static fg_status vpl_counts(stability *s, double *out)
     return status;
 }
 
-// ---- rows 29, 30
-// -----------------------------------------------------------------------------------------
+// ---- rows 29, 30 -----------------------------------------------------------------------------
 
 static fg_status empty_scene(stability *s, double *out)
 {
@@ -252,7 +249,7 @@ static ag_camera camera_at(double x, double y, double z, double degrees)
 {
     ag_camera camera = { .yfov = (float) (degrees * M_PI / 180), .znear = 1e-3f };
     for (int i = 0; i < 4; ++i)
-        camera.world[5 * i] = 1;
+        camera.world[5 * (size_t) i] = 1;
     camera.world[12] = x;
     camera.world[13] = y;
     camera.world[14] = z;
@@ -297,8 +294,7 @@ static fg_status near_is_far(stability *s, double *out)
     return status != FG_OK && s->error[0] ? FG_OK : status;
 }
 
-// ---- rows 34, 35
-// -----------------------------------------------------------------------------------------
+// ---- rows 34, 35 -----------------------------------------------------------------------------
 
 // A folder in which the tone curve's shader is no shader.
 static fg_status broken_shader(stability *s, double *out)
@@ -363,7 +359,7 @@ static fg_status same_reordered(stability *s, double *out)
     return same_as_plain(s, FG_DEBUG_RANDOM_ORDER, out);
 }
 
-// ---- the table ----
+// ---- the table -------------------------------------------------------------------------------
 
 static const char bad_values[] = "values that are not finite or negative light";
 static const char brightest[] = "brightest value";

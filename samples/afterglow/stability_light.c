@@ -7,8 +7,7 @@ static const shot radiance = { .layer = LAYER_RADIANCE };
 static const shot indirect = { .layer = LAYER_INDIRECT };
 static const shot direct = { .layer = LAYER_DIRECT };
 
-// ---- rows 1 to 5
-// --------------------------------------------------------------------------------------
+// ---- rows 1 to 5 -----------------------------------------------------------------------------
 
 // No bounce is brighter than the albedo times the brightest surface that it comes from: form
 // factors over a hemisphere sum to 1.
@@ -53,7 +52,9 @@ static double block_mean(const image *img, int x0, int y0, int size)
     for (int y = y0; y < y0 + size; ++y)
         for (int x = x0; x < x0 + size; ++x)
             for (int c = 0; c < 3; ++c)
-                sum += (double) img->rgb[3 * (y * img->width + x) + c];
+                sum +=
+                    (double)
+                        img->rgb[3 * ((size_t) y * (size_t) img->width + (size_t) x) + (size_t) c];
     return sum;
 }
 
@@ -110,8 +111,8 @@ static fg_status acne(stability *s, double *out)
     if (status == FG_OK)
         status = floor_under(s, 2, &img);
     for (int i = 0; status == FG_OK && i < img.width * img.height; ++i) {
-        const bool low = (double) img.rgb[3 * i] < 0.5 * want;
-        const bool there = above.rgb[3 * i] > 0;
+        const bool low = (double) img.rgb[3 * (size_t) i] < 0.5 * want;
+        const bool there = above.rgb[3 * (size_t) i] > 0;
         dark += there && low;
         lit += there && !low;
     }
@@ -169,8 +170,7 @@ static fg_status coincident_lights(stability *s, double *out)
     return against_plain(s, &what, &radiance, out);
 }
 
-// ---- rows 8 to 14
-// -------------------------------------------------------------------------------------
+// ---- rows 8 to 14 ----------------------------------------------------------------------------
 
 // The lamp moves 1 mm a frame, so that its texels cross the block's edges.
 static fg_status silhouette(stability *s, double *out)
@@ -290,13 +290,13 @@ static fg_status nan_pixel(stability *s, double *out)
         fg_logf(&s->log, FG_LOG_ERROR, "stability: no pass wrote gbuffer.normal");
     *out = s->poked ? 0 : INFINITY;
     for (int i = 0; status == FG_OK && i < img.width * img.height; ++i)
-        *out += !isfinite(img.rgb[3 * i]) || !isfinite(img.rgb[3 * i + 1]) ||
-                !isfinite(img.rgb[3 * i + 2]);
+        *out += !isfinite(img.rgb[3 * (size_t) i]) || !isfinite(img.rgb[3 * (size_t) i + 1]) ||
+                !isfinite(img.rgb[3 * (size_t) i + 2]);
     image_finish(&img);
     return status;
 }
 
-// ---- the table ----
+// ---- the table -------------------------------------------------------------------------------
 
 static const char bad_values[] = "values that are not finite or negative light";
 static const char brightest[] = "brightest value";

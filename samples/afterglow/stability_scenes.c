@@ -96,7 +96,7 @@ static void add_camera(ag_builder *b, const room *what, double scale)
 {
     ag_camera camera = { .name = "front", .yfov = 1.4f, .znear = (float) (1e-3 * scale) };
     for (int i = 0; i < 4; ++i)
-        camera.world[5 * i] = 1;
+        camera.world[5 * (size_t) i] = 1;
     for (int c = 0; c < 3; ++c)
         camera.world[12 + c] = what->offset[c] + (c == 2 ? 0.49 * scale : 0);
     ag_builder_camera(b, -1, &camera);
@@ -184,7 +184,8 @@ static int add_sheet(ag_builder *b, int cells)
     int primitive = -1;
     size_t count = 0;
     for (int i = 0; v && index && i < n * n; ++i) {
-        const float x = (float) (i % n) / (float) cells, z = (float) (i / n) / (float) cells;
+        const int column = i % n, row = i / n;
+        const float x = (float) column / (float) cells, z = (float) row / (float) cells;
         const ag_vertex at = { .position = { x - 0.5f, 0.01f * sinf(40 * x) * sinf(40 * z) - 0.4f,
                                              0.5f - z },
                                .color = { 1, 1, 1, 1 } };
@@ -218,12 +219,12 @@ fg_status stability_field(const fg_log *log, int count, int cells, ag_scene **ou
         return FG_ERR_MEMORY;
     const int sheet = add_sheet(b, cells);
     for (int i = 0; i < count; ++i) {
-        const double edge = ceil(sqrt(count)), size = 1 / edge;
+        const int edge = (int) ceil(sqrt(count)), column = i % edge, row = i / edge;
+        const double size = 1.0 / edge;
         const ag_node_desc node = {
             .name = "object",
             .parent = -1,
-            .translation = { (i % (int) edge + 0.5) * size - 0.5, 0,
-                             (i / (int) edge + 0.5) * size - 0.5 },
+            .translation = { (column + 0.5) * size - 0.5, 0, (row + 0.5) * size - 0.5 },
             .scale = { size, 1, size },
         };
         ag_builder_show(b, ag_builder_node(b, &node), sheet, -1);
