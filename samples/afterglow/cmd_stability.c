@@ -57,7 +57,7 @@ static cJSON *case_json(const stability_case *k, const char *plugin, const char 
 static bool run_case(host *h, const stability_case *k, const setting *plugin, cJSON *list)
 {
     stability s = { .device = h->device, .setting = plugin };
-    double measured = NAN;
+    double measured = (double) NAN;
     char why[640];
     s.log = (fg_log){ .fn = receive, .user = &s, .level = FG_LOG_WARN };
     s.frames = h->o->frames ? h->o->frames : 300;

@@ -43,7 +43,7 @@ static double *nan_row(int capacity)
 {
     double *row = malloc((size_t) capacity * sizeof *row);
     for (int k = 0; row && k < capacity; ++k)
-        row[k] = NAN;
+        row[k] = (double) NAN;
     return row;
 }
 
@@ -111,7 +111,7 @@ double timing_quantile(const double *values, int count, double q)
             sorted[n++] = values[i];
     if (!n) {
         free(sorted);
-        return NAN;
+        return (double) NAN;
     }
     qsort(sorted, (size_t) n, sizeof *sorted, compare_doubles);
     const double at = q * (n - 1);

@@ -156,7 +156,7 @@ static fg_status write_block(FILE *f, const char *name, const cJSON *doc, const 
 static void write_ranges(FILE *f, const cJSON *doc, const char *scene, int truth, double noise)
 {
     const cJSON *record;
-    double low[2] = { INFINITY, INFINITY }, high[2] = { 0, 0 };
+    double low[2] = { (double) INFINITY, (double) INFINITY }, high[2] = { 0, 0 };
     cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
     {
         const double v[2] = { frame_median(record), report_error_of(record, truth) };

@@ -288,7 +288,7 @@ static fg_status nan_pixel(stability *s, double *out)
     s->poke = false;
     if (status == FG_OK && !s->poked)
         fg_logf(&s->log, FG_LOG_ERROR, "stability: no pass wrote gbuffer.normal");
-    *out = s->poked ? 0 : INFINITY;
+    *out = s->poked ? 0 : (double) INFINITY;
     for (int i = 0; status == FG_OK && i < img.width * img.height; ++i)
         *out += !isfinite(img.rgb[3 * (size_t) i]) || !isfinite(img.rgb[3 * (size_t) i + 1]) ||
                 !isfinite(img.rgb[3 * (size_t) i + 2]);
