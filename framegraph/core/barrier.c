@@ -109,10 +109,10 @@ static bool clear_for(fg_graph *g, const io_rec *io, uint32_t value)
 
 static bool poison(fg_graph *g, uint32_t step, const io_rec *io)
 {
-    plan *p = g->next;
+    const plan *p = g->next;
     const res_rec *r = &g->open->res[io->res];
     const res_plan *rp = &p->res[io->res];
-    if (!(g->debug & FG_DEBUG_POISON) || rp->first != step || p->slot[rp->slot].kind == SLOT_IMPORT)
+    if (rp->first != step || p->slot[rp->slot].kind == SLOT_IMPORT)
         return true;
     const uint8_t flags = CLEAR_IF_ON | CLEAR_IF_OFF | CLEAR_POISON;
     clear_run run = { 0, r->depth ? 1 : sub_layers(r), 0 };
@@ -122,18 +122,19 @@ static bool poison(fg_graph *g, uint32_t step, const io_rec *io)
     return true;
 }
 
-static bool clears_of_step(fg_graph *g, uint32_t step)
+static bool plan_clears(fg_graph *g, uint32_t step)
 {
     const decl *d = g->open;
     plan *p = g->next;
     const pass_rec *rec = &d->pass[p->step[step].pass];
+    const uint32_t end = io_end(rec);
+    const uint32_t first = p->clear_count;
     uint32_t value = rec->clear;
-    for (uint32_t k = rec->io; k < rec->io + rec->reads + rec->writes; k++) {
-        const io_rec *io = &d->io[k];
-        if (!p->absent[k] && !poison(g, step, io))
+    p->step[p->step_count].clear = first; // where this step's begin, see add_clear()
+    for (uint32_t k = rec->io; g->debug & FG_DEBUG_POISON && k < end; k++)
+        if (!p->absent[k] && !poison(g, step, &d->io[k]))
             return false;
-    }
-    for (uint32_t k = rec->io; k < rec->io + rec->reads + rec->writes; k++) {
+    for (uint32_t k = rec->io; k < end; k++) {
         const io_rec *io = &d->io[k];
         if (p->absent[k] || io->flags & IO_LAST)
             continue;
@@ -141,6 +142,10 @@ static bool clears_of_step(fg_graph *g, uint32_t step)
             return false;
         value += (io->flags & IO_CLEAR) != 0;
     }
+    p->step[step].clear = first;
+    p->step[step + 1].clear = p->clear_count;
+    for (uint32_t k = first; k < p->clear_count; k++)
+        p->step[step].clears |= p->clear[k].flags & CLEAR_IF_ON;
     return true;
 }
 
@@ -149,18 +154,12 @@ static bool prepare_written(fg_graph *g)
 {
     const decl *d = g->open;
     plan *p = g->next;
-    uint32_t total = 0;
-    for (uint32_t r = 0; r < d->res_count; r++) {
-        const uint32_t count = d->res[r].depth ? d->res[r].mips : sub_count(&d->res[r]);
-        p->res[r].written = count > 1 ? total : d->res[r].import != NONE;
-        if (p->res[r].slot != NONE && count > 1)
-            total += count;
-    }
-    if (!GROW(g, p->written, p->written_cap, total))
+    if (!p->written_count)
+        return true;
+    if (!GROW(g, p->written, p->written_cap, p->written_count))
         return false;
-    if (total)
-        memset(p->written, 0, total);
-    for (uint32_t r = 0; total && r < d->res_count; r++) {
+    memset(p->written, 0, p->written_count);
+    for (uint32_t r = 0; d->import_count && r < d->res_count; r++) {
         const uint32_t count = d->res[r].depth ? d->res[r].mips : sub_count(&d->res[r]);
         if (p->res[r].slot != NONE && count > 1 && d->res[r].import != NONE)
             memset(p->written + p->res[r].written, 1, count);
@@ -169,11 +168,12 @@ static bool prepare_written(fg_graph *g)
 }
 
 // What outlives the frame must not show what nobody wrote: cleared after the last step.
-static bool clears_of_end(fg_graph *g)
+static bool plan_end(fg_graph *g)
 {
     const decl *d = g->open;
     plan *p = g->next;
-    for (uint32_t r = 0; r < d->res_count; r++) {
+    p->step[p->step_count].clear = p->clear_count;
+    for (uint32_t r = 0; p->stats.persistent_bytes && r < d->res_count; r++) {
         const res_rec *rec = &d->res[r];
         const uint32_t slot = p->res[r].slot;
         if (slot == NONE ||
@@ -185,26 +185,6 @@ static bool clears_of_end(fg_graph *g)
         if (!clear_for(g, &whole, NONE))
             return false;
     }
-    return true;
-}
-
-static bool plan_clears(fg_graph *g)
-{
-    plan *p = g->next;
-    p->clear_count = 0;
-    if (!prepare_written(g))
-        return false;
-    for (uint32_t i = 0; i < p->step_count; i++) {
-        p->step[i].clear = p->clear_count;
-        p->step[p->step_count].clear = p->clear_count; // where this step's begin, see add_clear()
-        if (!clears_of_step(g, i))
-            return false;
-        for (uint32_t k = p->step[i].clear; k < p->clear_count; k++)
-            p->step[i].clears |= p->clear[k].flags & CLEAR_IF_ON;
-    }
-    p->step[p->step_count].clear = p->clear_count;
-    if (!clears_of_end(g))
-        return false;
     p->step[p->step_count + 1].clear = p->clear_count;
     return true;
 }
@@ -220,7 +200,7 @@ typedef struct touch {
 } touch;
 
 // Whether `t` needs a barrier at `now`.
-static bool needs_barrier(const barrier_state *b, const touch *t, uint32_t now)
+static inline bool needs_barrier(const barrier_state *b, const touch *t, uint32_t now)
 {
     const uint32_t last = b->at[t->bit];
     const sub_state *row = t->first;
@@ -233,7 +213,7 @@ static bool needs_barrier(const barrier_state *b, const touch *t, uint32_t now)
     return false;
 }
 
-static void note(const touch *t, uint32_t now)
+static inline void note(const touch *t, uint32_t now)
 {
     sub_state *row = t->first;
     for (uint32_t m = 0; m < t->rows; m++, row += t->stride)
@@ -254,7 +234,7 @@ static void forget(const touch *t)
 }
 
 // Where nothing is ever written incoherently there is nothing to do.
-static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
+static inline bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
 {
     const io_rec *io = &b->d->io[k];
     if (b->p->absent[k])
@@ -269,8 +249,7 @@ static bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
     t->rows = io->mips;
     t->columns = flat ? 1 : io->layers;
     t->bit = use_bit[io->use];
-    t->incoherent =
-        (io->flags & IO_WRITE) && (io->use == FG_USE_IMAGE || io->use == FG_USE_STORAGE);
+    t->incoherent = io_incoherent(io);
     return true;
 }
 
@@ -346,19 +325,28 @@ static void barriers_of_step(barrier_state *b, uint32_t step, uint32_t now)
         note(&touches[i], now + 3);
 }
 
+static bool plan_all(barrier_state *b)
+{
+    plan *p = b->p;
+    p->clear_count = 0;
+    if (!prepare_written(b->g) || !GROW(b->g, p->sub, p->sub_cap, p->sub_count))
+        return false;
+    for (uint32_t i = 0; p->incoherent && i < p->sub_count; i++)
+        p->sub[i] = (sub_state){ 1, 1 };
+    for (uint32_t i = 0; i < p->step_count; i++) {
+        if (!plan_clears(b->g, i))
+            return false;
+        if (p->incoherent)
+            barriers_of_step(b, i, 4 + 4 * i);
+    }
+    return plan_end(b->g);
+}
+
 fg_status fg_barriers(fg_graph *g)
 {
-    plan *p = g->next;
-    barrier_state b = { .g = g, .d = g->open, .p = p };
-    if (!plan_clears(g) || !GROW(g, p->sub, p->sub_cap, p->sub_count)) {
-        fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory while planning barriers");
-        return FG_ERR_MEMORY;
-    }
-    if (!p->incoherent)
+    barrier_state b = { .g = g, .d = g->open, .p = g->next };
+    if (plan_all(&b))
         return FG_OK;
-    for (uint32_t i = 0; i < p->sub_count; i++)
-        p->sub[i] = (sub_state){ 1, 1 };
-    for (uint32_t i = 0; i < p->step_count; i++)
-        barriers_of_step(&b, i, 4 + 4 * i);
-    return FG_OK;
+    fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory while planning barriers");
+    return FG_ERR_MEMORY;
 }

@@ -202,8 +202,10 @@ static fg_status bind_resources(fg_graph *g)
     const decl *d = g->built;
     for (uint32_t r = 0; r < d->res_count; r++) {
         res_plan *rp = &g->plan->res[r];
-        if (rp->slot == NONE || !pooled_kind(&g->plan->slot[rp->slot]))
+        if (rp->slot == NONE || !pooled_kind(&g->plan->slot[rp->slot])) {
+            rp->object = 0;
             continue;
+        }
         const uint32_t pool = g->plan->slot[rp->slot].pool;
         const bool same =
             !(d->res[r].flags & RES_TEXTURE) || g->pool[pool].format == d->res[r].format;
@@ -220,7 +222,7 @@ static fg_status bind_resources(fg_graph *g)
 void fg_bind_imports(fg_graph *g)
 {
     const decl *d = g->built;
-    for (uint32_t r = 0; r < d->res_count; r++)
+    for (uint32_t r = 0; d->import_count && r < d->res_count; r++)
         if (d->res[r].import != NONE)
             g->plan->res[r].object = d->import[d->res[r].import];
 }

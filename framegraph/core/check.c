@@ -69,7 +69,9 @@ static bool count_versions(fg_graph *g)
     plan *p = g->next;
     uint32_t total = 0;
     for (uint32_t r = 0; r < d->res_count; r++)
-        p->res[r] = (res_plan){ .versions = d->res[r].import != NONE, .first = NONE, .slot = NONE };
+        p->res[r] = (res_plan){
+            .versions = d->res[r].import != NONE, .first = NONE, .last = NONE, .slot = NONE
+        };
     for (uint32_t i = 0; i < d->io_count; i++) {
         const io_rec *io = &d->io[i];
         res_plan *r = &p->res[io->res];
@@ -77,11 +79,11 @@ static bool count_versions(fg_graph *g)
             continue;
         if (io->version > r->versions)
             r->versions = io->version;
-        r->last++; // writes, for now
+        r->writes++;
     }
     for (uint32_t r = 0; r < d->res_count; r++) {
         // More versions than writes: one is missing. Keeps the table linear.
-        const uint32_t most = p->res[r].last + (d->res[r].import != NONE);
+        const uint32_t most = p->res[r].writes + (d->res[r].import != NONE);
         if (p->res[r].versions > most) {
             fg_decl_fail(
                 g, FG_ERR_INVALID,
@@ -97,8 +99,8 @@ static bool count_versions(fg_graph *g)
         fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory for %u versions", total);
         return false;
     }
-    for (uint32_t i = 0; i < total; i++)
-        p->version[i] = (version_rec){ NONE, NONE };
+    memset(p->version, 0xff, total * sizeof *p->version); // NONE
+    g->missing = total - d->import_count;
     return true;
 }
 
@@ -115,6 +117,7 @@ static bool index_write(fg_graph *g, uint32_t pass, uint32_t i)
     }
     if (v->pass == NONE) {
         *v = (version_rec){ pass, i };
+        g->missing--;
     } else if (v->pass != pass) {
         fg_decl_fail(g, FG_ERR_INVALID,
                      "passes '%s' and '%s' both write version %u of '%s': the later one writes "
@@ -129,7 +132,7 @@ static bool check_gaps(fg_graph *g)
 {
     const decl *d = g->open;
     bool good = true;
-    for (uint32_t r = 0; r < d->res_count; r++) {
+    for (uint32_t r = 0; g->missing && r < d->res_count; r++) {
         const res_plan *rp = &g->next->res[r];
         for (uint32_t v = d->res[r].import != NONE; v < rp->versions; v++) {
             if (g->next->version[rp->version + v].pass != NONE)

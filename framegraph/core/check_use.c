@@ -4,27 +4,27 @@
 
 #define BIT(use) (1u << (use))
 
-// Uses that a texture or a buffer allows when read or written.
-static unsigned allowed_uses(const res_rec *r, bool write, fg_kind kind)
-{
-    if (!(r->flags & RES_TEXTURE))
-        return write ? BIT(FG_USE_STORAGE) | BIT(FG_USE_COPY)
-                     : BIT(FG_USE_STORAGE) | BIT(FG_USE_COPY) | BIT(FG_USE_UNIFORM) |
-                           BIT(FG_USE_VERTEX) | BIT(FG_USE_INDEX) | BIT(FG_USE_INDIRECT);
-    unsigned bits = BIT(FG_USE_IMAGE) | BIT(FG_USE_COPY);
-    if (!write)
-        bits |= BIT(FG_USE_SAMPLED);
-    if (kind == FG_KIND_RASTER)
-        bits |= BIT(FG_USE_DEPTH) | (write ? BIT(FG_USE_COLOR) : 0);
-    return bits;
-}
+// Uses of a texture that is read or written, in a raster or a compute pass; of a buffer.
+static const uint16_t texture_uses[2][2] = {
+    { BIT(FG_USE_SAMPLED) | BIT(FG_USE_IMAGE) | BIT(FG_USE_COPY) | BIT(FG_USE_DEPTH),
+      BIT(FG_USE_SAMPLED) | BIT(FG_USE_IMAGE) | BIT(FG_USE_COPY) },
+    { BIT(FG_USE_IMAGE) | BIT(FG_USE_COPY) | BIT(FG_USE_DEPTH) | BIT(FG_USE_COLOR),
+      BIT(FG_USE_IMAGE) | BIT(FG_USE_COPY) },
+};
+static const uint16_t buffer_uses[2] = {
+    BIT(FG_USE_STORAGE) | BIT(FG_USE_COPY) | BIT(FG_USE_UNIFORM) | BIT(FG_USE_VERTEX) |
+        BIT(FG_USE_INDEX) | BIT(FG_USE_INDIRECT),
+    BIT(FG_USE_STORAGE) | BIT(FG_USE_COPY),
+};
 
 static void check_use(fg_graph *g, uint32_t pass, const io_rec *io)
 {
     const decl *d = g->open;
     const res_rec *r = &d->res[io->res];
     const bool write = io->flags & IO_WRITE;
-    if (!(allowed_uses(r, write, (fg_kind) d->pass[pass].kind) & BIT(io->use))) {
+    const unsigned allowed =
+        r->flags & RES_TEXTURE ? texture_uses[write][d->pass[pass].kind] : buffer_uses[write];
+    if (!(allowed & BIT(io->use))) {
         fg_decl_fail(g, FG_ERR_INVALID, "%s pass '%s' %s %s '%s' as %s, which is not possible",
                      d->pass[pass].kind == FG_KIND_COMPUTE ? "compute" : "raster",
                      pass_name(d, pass), write ? "writes" : "reads",

@@ -178,7 +178,8 @@ static bool within_limits(fg_graph *g, const char *name, const fg_tex_desc *desc
     const fg_device_limits *l = g->limits;
     const int size = desc->depth ? l->max_3d_size : l->max_texture_size;
     if (r->width <= size && r->height <= size && desc->depth <= size &&
-        desc->layers <= l->max_layers && desc->samples <= l->max_samples)
+        desc->layers <= l->max_layers && desc->samples <= l->max_samples &&
+        desc->depth <= UINT16_MAX && desc->layers <= UINT16_MAX)
         return true;
     fg_decl_fail(
         g, FG_ERR_UNSUPPORTED,
@@ -212,7 +213,7 @@ static bool texture_shape(fg_graph *g, const char *name, const fg_tex_desc *desc
         REFUSE("texture '%s': a multisample texture has no mips", name);
     if ((unsigned) desc->history > FG_HISTORY_DISCARD)
         REFUSE("texture '%s': history policy %d does not exist", name, (int) desc->history);
-    r->depth = desc->depth;
+    r->depth = (uint16_t) desc->depth;
     r->layers = (uint16_t) (desc->cube && !desc->layers ? 6 : desc->layers);
     r->mips = (uint8_t) (desc->mips == FG_MIPS_ALL ? full : desc->mips ? desc->mips : 1);
     r->samples = (uint8_t) (desc->samples ? desc->samples : 1);

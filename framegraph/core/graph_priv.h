@@ -50,13 +50,12 @@ typedef struct res_rec {
     uint64_t bytes;  // device memory; of a buffer its size
     uint32_t name;   // offset into decl.text
     uint32_t import; // index into decl.import, or NONE
-    int32_t width, height, depth;
-    uint16_t layers;
-    uint8_t mips, samples;
-    uint8_t format, flags, history, zero;
-    uint32_t zero2;
+    int32_t width, height;
+    uint16_t depth, layers;
+    uint8_t mips, samples, format;
+    uint8_t flags : 4, history : 4;
 } res_rec;
-_Static_assert(sizeof(res_rec) == 40, "no padding");
+_Static_assert(sizeof(res_rec) == 32, "no padding");
 
 enum {
     IO_WRITE = 1,
@@ -137,7 +136,11 @@ typedef struct res_plan {
     uint32_t slot;        // index into plan.slot, NONE if it is not live; a history's other
                           // object is slot + 1
     uint32_t written;     // offset into plan.written
-    uint32_t object;      // bound object
+    union {
+        uint32_t object;  // bound object
+        uint32_t writes;  // while checking: how many
+        uint32_t last_io; // while placing: its last access
+    };
     uint32_t last_object; // of last frame, for histories
 } res_plan;
 
@@ -298,7 +301,8 @@ struct fg_graph {
     uint32_t *table; // scratch: names with their hashes, then groups, then others
     uint32_t *stack;
     uint32_t table_cap, stack_cap;
-    uint64_t work; // steps of the loops of the last compile
+    uint64_t work;    // steps of the loops of the last compile
+    uint32_t missing; // while checking: versions without a pass
 
     pool_rec *pool;
     pool_view *view;
@@ -340,6 +344,18 @@ static inline uint32_t sub_layers(const res_rec *r)
 static inline uint32_t sub_count(const res_rec *r)
 {
     return r->mips * sub_layers(r);
+}
+
+// Past the last access of a pass.
+static inline uint32_t io_end(const pass_rec *p)
+{
+    return p->io + p->reads + p->writes;
+}
+
+// A write of a shader to an image or a storage buffer.
+static inline bool io_incoherent(const io_rec *io)
+{
+    return (io->flags & IO_WRITE) && (io->use == FG_USE_IMAGE || io->use == FG_USE_STORAGE);
 }
 
 static inline bool io_overlap(const io_rec *a, const io_rec *b)
