@@ -26,8 +26,14 @@ static bool is_file(const char *path)
     return stat(path, &st) == 0 && S_ISREG(st.st_mode);
 }
 
-// The directory's first .gltf by name; the path in `out`, or false.
-static bool first_gltf(const char *folder, char *out, size_t size)
+static bool ends_in(const char *name, const char *ending)
+{
+    const size_t length = strlen(name), tail = strlen(ending);
+    return length > tail && !strcmp(name + length - tail, ending);
+}
+
+// The directory's first file by name that ends so; its path in `out`, or false.
+static bool first_file(const char *folder, const char *ending, char *out, size_t size)
 {
     char best[256] = "";
     DIR *dir = opendir(folder);
@@ -35,8 +41,8 @@ static bool first_gltf(const char *folder, char *out, size_t size)
         return false;
     for (const struct dirent *e = readdir(dir); e; e = readdir(dir)) {
         const size_t length = strlen(e->d_name);
-        const bool gltf = length > 5 && !strcmp(e->d_name + length - 5, ".gltf");
-        if (gltf && length < sizeof best && (!best[0] || strcmp(e->d_name, best) < 0))
+        if (ends_in(e->d_name, ending) && length < sizeof best &&
+            (!best[0] || strcmp(e->d_name, best) < 0))
             memcpy(best, e->d_name, length + 1);
     }
     closedir(dir);
@@ -44,7 +50,7 @@ static bool first_gltf(const char *folder, char *out, size_t size)
     return best[0] && written > 0 && (size_t) written < size && is_file(out);
 }
 
-// NAME, NAME.gltf, NAME.glb, NAME/*.gltf below `root`.
+// NAME, NAME.gltf, NAME.glb, NAME/*.gltf, NAME/*.glb below `root`.
 static bool find_below(const char *root, const char *name, char *out, size_t size)
 {
     static const char *const endings[] = { "", ".gltf", ".glb" };
@@ -55,7 +61,9 @@ static bool find_below(const char *root, const char *name, char *out, size_t siz
     }
     char folder[2048];
     const int written = snprintf(folder, sizeof folder, "%s/%s", root, name);
-    return written > 0 && (size_t) written < sizeof folder && first_gltf(folder, out, size);
+    if (written < 0 || (size_t) written >= sizeof folder)
+        return false;
+    return first_file(folder, ".gltf", out, size) || first_file(folder, ".glb", out, size);
 }
 
 fg_status scenes_open(const fg_log *log, const char *name, ag_scene **out)

@@ -15,8 +15,9 @@ typedef struct builtin_scene {
 
 const builtin_scene *scenes_builtin(int i); // NULL past the end
 
-// A built-in by name, else a .gltf or .glb by path, else NAME, NAME.gltf, NAME.glb or
-// NAME/*.gltf below AFTERGLOW_SCENES. Errors as ag_scene_load().
+// A built-in by name, else a .gltf or .glb by path, else NAME, NAME.gltf, NAME.glb or the first
+// by name of NAME/*.gltf, failing that of NAME/*.glb, below AFTERGLOW_SCENES. Errors as
+// ag_scene_load().
 FG_NODISCARD fg_status scenes_open(const fg_log *log, const char *name, ag_scene **out);
 
 FG_END

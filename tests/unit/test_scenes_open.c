@@ -47,7 +47,7 @@ static void path_in(const folder *f, const char *name, char out[256])
 static int drop_folder(void **state)
 {
     static const char *const files[] = { "hall.gltf", "sub/b.gltf", "sub/a.gltf", "sub/a.txt",
-                                         "broken.gltf" };
+                                         "sub/a.glb", "sub/b.glb",  "broken.gltf" };
     folder *f = *state;
     char path[256];
     for (int i = 0; i < FG_COUNT(files); ++i) {
@@ -62,18 +62,38 @@ static int drop_folder(void **state)
     return 0;
 }
 
-// A scene with one camera, so that it can be told from others.
+static void put_u32(uint32_t value, FILE *file)
+{
+    for (int i = 0; i < 4; ++i)
+        fputc((int) (value >> 8 * i & 255), file);
+}
+
+// The header of a .glb file that holds a chunk of JSON alone.
+static void put_glb_header(uint32_t size, FILE *file)
+{
+    fputs("glTF", file);
+    put_u32(2, file);
+    put_u32(12 + 8 + size, file);
+    put_u32(size, file);
+    fputs("JSON", file);
+}
+
+// A scene with one camera, so that it can be told from others; a .glb where the name says so.
 static void write_scene(const folder *f, const char *name, const char *camera)
 {
-    char path[256];
+    char path[256], text[512];
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+             "\"nodes\":[{\"camera\":0,\"name\":\"%s\"}],\"cameras\":[{\"name\":\"%s\","
+             "\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":0.1}}]}",
+             camera, camera);
+    const int padded = ((int) strlen(text) + 3) / 4 * 4;
     path_in(f, name, path);
-    FILE *file = fopen(path, "w");
+    FILE *file = fopen(path, "wb");
     assert_non_null(file);
-    fprintf(file,
-            "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
-            "\"nodes\":[{\"camera\":0,\"name\":\"%s\"}],\"cameras\":[{\"name\":\"%s\","
-            "\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":0.1}}]}",
-            camera, camera);
+    if (strstr(name, ".glb"))
+        put_glb_header((uint32_t) padded, file);
+    fprintf(file, "%-*s", padded, text);
     assert_int_equal(fclose(file), 0);
 }
 
@@ -132,6 +152,16 @@ static void scene_folder_gives_its_first_gltf(void **state)
     write_scene(*state, "sub/a.txt", "text");
     check_opens(*state, "sub", "first");
     check_opens(*state, "sub/b", "second");
+}
+
+static void scene_folder_without_gltf_gives_its_first_glb(void **state)
+{
+    make_sub(*state);
+    write_scene(*state, "sub/b.glb", "second");
+    write_scene(*state, "sub/a.glb", "first");
+    check_opens(*state, "sub", "first");
+    write_scene(*state, "sub/b.gltf", "text");
+    check_opens(*state, "sub", "text");
 }
 
 static void builtin_goes_before_a_file_of_its_name(void **state)
@@ -202,6 +232,7 @@ int main(void)
         WITH_FOLDER(scene_is_found_by_path),
         WITH_FOLDER(scene_is_found_below_the_folder_with_and_without_its_ending),
         WITH_FOLDER(scene_folder_gives_its_first_gltf),
+        WITH_FOLDER(scene_folder_without_gltf_gives_its_first_glb),
         WITH_FOLDER(builtin_goes_before_a_file_of_its_name),
         WITH_FOLDER(unknown_scene_names_what_was_tried),
         WITH_FOLDER(empty_name_is_refused),
