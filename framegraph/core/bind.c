@@ -130,6 +130,15 @@ static bool pooled_kind(const slot_rec *s)
     return s->kind == SLOT_SHARED || s->kind == SLOT_EXPORT;
 }
 
+static group_rec group_of_slot(const fg_graph *g, const slot_rec *slot)
+{
+    if (slot->group != NONE)
+        return g->plan->group[slot->group];
+    group_rec group = { .key = fg_group_of(&g->built->res[slot->res]) };
+    group.hash = fg_hash(&group.key, sizeof group.key);
+    return group;
+}
+
 // Finds a pool entry for each slot; of equal ones the oldest, so that the same plan
 // gets the same objects.
 static bool match(fg_graph *g)
@@ -142,7 +151,7 @@ static bool match(fg_graph *g)
         return false;
     memset(g->table, 0, ((size_t) mask + 1) * sizeof *g->table);
     for (uint32_t i = g->pool_count; i-- > 0;) {
-        const uint32_t at = fg_hash(&g->pool[i].key, sizeof(group_key)) & mask;
+        const uint32_t at = g->pool[i].hash & mask;
         g->pool[i].next = g->table[at];
         g->pool[i].used = false;
         g->table[at] = i + 1;
@@ -152,9 +161,9 @@ static bool match(fg_graph *g)
         slot->pool = NONE;
         if (!pooled_kind(slot))
             continue;
-        const group_key key = fg_group_of(&g->built->res[slot->res]);
-        uint32_t *link = &g->table[fg_hash(&key, sizeof key) & mask];
-        while (*link && memcmp(&g->pool[*link - 1].key, &key, sizeof key) != 0)
+        const group_rec group = group_of_slot(g, slot);
+        uint32_t *link = &g->table[group.hash & mask];
+        while (*link && memcmp(&g->pool[*link - 1].key, &group.key, sizeof group.key) != 0)
             link = &g->pool[*link - 1].next;
         if (!*link)
             continue;
@@ -183,7 +192,10 @@ static void evict(fg_graph *g, uint32_t idle)
 static fg_status create_slot(fg_graph *g, slot_rec *slot)
 {
     const res_rec *r = &g->built->res[slot->res];
-    pool_rec made = { .key = fg_group_of(r), .bytes = r->bytes, .format = r->format, .used = true };
+    const group_rec group = group_of_slot(g, slot);
+    pool_rec made = {
+        .key = group.key, .hash = group.hash, .bytes = r->bytes, .format = r->format, .used = true
+    };
     if (!GROW(g, g->pool, g->pool_cap, g->pool_count + 1)) {
         fg_logf(g->log, FG_LOG_ERROR, "graph: out of memory for '%s'",
                 res_name(g->built, slot->res));

@@ -175,6 +175,7 @@ _Static_assert(sizeof(group_key) == 32, "no padding");
 
 typedef struct group_rec {
     group_key key;
+    uint32_t hash; // of the key
     uint32_t free; // first free slot
 } group_rec;
 
@@ -239,6 +240,7 @@ typedef struct pool_view {
 typedef struct pool_rec {
     group_key key;
     uint64_t bytes;
+    uint32_t hash; // of the key
     uint32_t object, format;
     uint32_t view; // first of its views, + 1
     uint32_t idle; // compiles since it was last in use

@@ -46,21 +46,27 @@ static uint64_t mix(uint64_t h, uint64_t word)
     return h ^ h >> 32;
 }
 
+static uint64_t load(const char *at, size_t size)
+{
+    uint64_t word = 0;
+    memcpy(&word, at, size);
+    return word;
+}
+
 uint32_t fg_hash(const void *bytes, size_t size)
 {
     const char *at = bytes;
-    uint64_t h = 0x9e3779b97f4a7c15u ^ size, word = 0;
+    uint64_t h = 0x9e3779b97f4a7c15u ^ size;
     size_t left = size;
-    for (; left >= 8; left -= 8, at += 8) {
-        memcpy(&word, at, 8);
-        h = mix(h, word);
-    }
-    if (size >= 8 && left) {
-        memcpy(&word, at + left - 8, 8); // the last eight, some of them again
-    } else {
-        for (word = 0; left; left--)
-            word = word << 8 | (unsigned char) at[left - 1];
-    }
+    for (; left > 8; left -= 8, at += 8)
+        h = mix(h, load(at, 8));
+    // The last eight bytes, some of them again; of fewer, two halves or three bytes that overlap.
+    if (size >= 8)
+        h = mix(h, load(at + left - 8, 8));
+    else if (size >= 4)
+        h = mix(h, load(at, 4) << 32 | load(at + size - 4, 4));
+    else if (size)
+        h = mix(h, load(at, 1) << 16 | load(at + size / 2, 1) << 8 | load(at + size - 1, 1));
     // A product's bits depend only on lower ones: twice, so that the last byte reaches all.
-    return (uint32_t) (mix(h, word) * 0xc4ceb9fe1a85ec53u >> 32);
+    return (uint32_t) (h * 0xc4ceb9fe1a85ec53u >> 32);
 }

@@ -14,6 +14,7 @@ typedef struct object {
 
 typedef struct null_device {
     fg_device base;
+    fg_device_ops ops; // timing only where it records
     fg_device_limits limits;
     bool record;
     int fail_at, creations, live;
@@ -274,7 +275,6 @@ static const fg_device_ops null_ops = {
     .clear = clear,
     .pass_begin = pass_begin,
     .pass_end = pass_end,
-    .timing = timing,
     .reset = reset,
     .destroy = destroy,
 };
@@ -287,8 +287,10 @@ fg_device *fg_null_create(const fg_null_desc *desc)
     // The least that OpenGL 4.5 promises.
     static const fg_device_limits least = { 8, 16384, 2048, 2048, 4, (uint64_t) 1 << 27 };
     const fg_device_limits want = desc ? desc->limits : (fg_device_limits){ 0 };
-    d->base.ops = &null_ops;
     d->record = desc && desc->record;
+    d->ops = null_ops;
+    d->ops.timing = d->record ? timing : NULL;
+    d->base.ops = &d->ops;
     d->fail_at = desc ? desc->fail_at : 0;
     d->limits = (fg_device_limits){
         .max_color_attachments =

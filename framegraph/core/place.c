@@ -66,7 +66,8 @@ static uint32_t group_of(place *c, uint32_t res)
     if (p->group_count && same_shape(&c->d->res[c->like], &c->d->res[res]))
         return c->like_group;
     const group_key key = fg_group_of(&c->d->res[res]);
-    uint32_t at = fg_hash(&key, sizeof key) & c->mask;
+    const uint32_t hash = fg_hash(&key, sizeof key);
+    uint32_t at = hash & c->mask;
     for (; g->table[at]; at = (at + 1) & c->mask) {
         g->work++;
         if (!memcmp(&p->group[g->table[at] - 1].key, &key, sizeof key))
@@ -75,7 +76,7 @@ static uint32_t group_of(place *c, uint32_t res)
     if (!g->table[at]) {
         if (!GROW(g, p->group, p->group_cap, p->group_count + 1))
             return NONE;
-        p->group[p->group_count] = (group_rec){ .key = key, .free = NONE };
+        p->group[p->group_count] = (group_rec){ .key = key, .hash = hash, .free = NONE };
         g->table[at] = ++p->group_count;
     }
     c->like = res;

@@ -430,10 +430,33 @@ static void every_pass_has_its_timing(void **state)
         assert_true(t.cpu_ms >= 0 && t.cpu_start_ms >= before);
         before = t.cpu_start_ms + t.cpu_ms;
     }
+    assert_true(before > 0); // four passes that write their lines take some time
     assert_false(fg_graph_timing(r->g, 4, &t));
     assert_false(fg_graph_timing(r->g, -1, &t));
     assert_null(fg_graph_pass(r->g, 4));
     assert_non_null(strstr(fg_null_log(r->dev), "frame 0 timers 4\n"));
+    rig_close(r);
+}
+
+static void device_that_times_nothing_shows_no_times(void **state)
+{
+    (void) state;
+    rig *r = rig_open_with((fg_graph_desc){ 0 }, &(fg_null_desc){ .record = false });
+    rig_begin(r);
+    declare_frame(r);
+    rig_must_compile(r);
+    rig_must_run(r);
+    fg_timing t;
+    for (int i = 0; i < 4; i++) {
+        assert_true(fg_graph_timing(r->g, i, &t));
+        assert_string_equal(t.pass, fg_graph_pass(r->g, i));
+        assert_true(t.gpu_ms < 0);
+        assert_true(t.cpu_ms <= 0 && t.cpu_start_ms <= 0);
+    }
+    assert_false(fg_graph_timing(r->g, 4, &t));
+    char *trace = rig_dump(r, FG_DUMP_TRACE);
+    assert_null(strstr(trace, "\"draw\""));
+    fg_dump_free(r->g, trace);
     rig_close(r);
 }
 
@@ -557,6 +580,7 @@ int main(void)
         cmocka_unit_test(sizes_are_those_of_the_mip),
         cmocka_unit_test(inspection_sees_each_thing_written),
         cmocka_unit_test(every_pass_has_its_timing),
+        cmocka_unit_test(device_that_times_nothing_shows_no_times),
         cmocka_unit_test(dumps_escape_names),
         cmocka_unit_test(dumps_tell_what_was_left_out_and_why),
         cmocka_unit_test(cached_plan_and_fresh_one_dump_alike),

@@ -91,7 +91,8 @@ typedef struct fg_device_ops {
     void (*pass_end)(fg_device *dev, const fg_pass_begin *begin);
 
     // Start and duration of timer `timer` in the newest frame whose results have come
-    // back; false while none has. Never waits.
+    // back; false while none has. Never waits. NULL: nobody times passes on this device, and the
+    // graph does not read the CPU's clock around them either.
     bool (*timing)(fg_device *dev, int timer, double *start_ms, double *ms, uint64_t *frame);
 
     // Forgets framebuffers and timers of the graph that is going or has recompiled.
@@ -110,7 +111,8 @@ FG_API void fg_device_destroy(fg_device *dev);
 
 // Does nothing and writes down what it was asked, a line a call, e.g.
 // "texture hdr RGBA16F 64x64 -> 1", "barrier sampled|image", "pass sky 64x64 color 1",
-// so that a test can compare a whole frame with a text.
+// so that a test can compare a whole frame with a text. Passes are timed (on the CPU) only
+// where it records.
 typedef struct fg_null_desc {
     bool record;      // keep the lines; off for benchmarks
     int fail_at;      // > 0: the n-th creating call fails with FG_ERR_MEMORY

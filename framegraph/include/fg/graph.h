@@ -301,7 +301,8 @@ FG_API const char *fg_graph_left_out(const fg_graph *g, int i, const char **why)
 typedef struct fg_timing {
     const char *pass;
     double gpu_ms;     // of a frame some frames ago; negative while none has come back
-    double cpu_ms;     // last frame: the callback, and what the device does around it
+    double cpu_ms;     // last frame: the callback, and what the device does around it; 0 on a
+                       // device that times nothing
     uint64_t frame;    // the frame that gpu_ms is of
     double gpu_start_ms; // since the first pass of that frame began
     double cpu_start_ms; // since fg_graph_run() was entered
