@@ -35,6 +35,30 @@ static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
     return fg_gl_program(device, &desc);
 }
 
+// VPLs of one dispatch. Mesa's software renderer leaves every loop of an invocation for good after
+// 65535 rounds of all of them together; a VPL takes at most 2, and 6 for each of its 16 receivers.
+// A GPU gets as much as keeps its watchdog still.
+static int suitable_span(fg_device *device)
+{
+    return fg_gl_software(device) ? 640 : 16384;
+}
+
+static void dispatch_spans(const fg_run *run, const ag_gather_pass *pass, uint32_t program,
+                           int block)
+{
+    const int edge = block == 16 ? 32 : block == 4 ? 16 : 8; // pixels of one work group
+    const int step = suitable_span(fg_run_device(run));
+    int size[3];
+    fg_run_size(run, pass->out, 0, size);
+    for (int first = 0; first < pass->capacity; first += step) {
+        const bool last = first + step >= pass->capacity;
+        if (first > 0)
+            glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        glProgramUniform3i(program, 2, first, last ? pass->capacity : first + step, last);
+        fg_gl_dispatch_2d(size[0], size[1], edge, edge);
+    }
+}
+
 static fg_status run_gather(const fg_run *run, void *user)
 {
     const ag_gather_pass *pass = user;
@@ -50,14 +74,11 @@ static fg_status run_gather(const fg_run *run, void *user)
     fg_gl_image(run, 0, pass->out, 0, GL_READ_WRITE, FG_RGBA32F);
     if (pass->clamp == AG_CLAMP_CONSTANT)
         glProgramUniform1f(program, 0, pass->clamp_d2);
-    int size[3];
-    fg_run_size(run, pass->out, 0, size);
     const int block = pass->block ? pass->block : suitable_block(device);
     if (pass->clamp == AG_CLAMP_FOOTPRINT)
         glProgramUniform1i(program, 1, block);
-    const int edge = block == 16 ? 32 : block == 4 ? 16 : 8; // pixels of one work group
     glUseProgram(program);
-    fg_gl_dispatch_2d(size[0], size[1], edge, edge);
+    dispatch_spans(run, pass, program, block);
     return FG_OK;
 }
 
@@ -72,6 +93,7 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
         .normal = gbuffer->normal,
         .vpls = vpls->vpls,
         .count = vpls->count,
+        .capacity = vpls->capacity,
         .clamp = desc->clamp,
         .clamp_d2 = desc->clamp_d2,
         .block = desc->block,

@@ -41,6 +41,9 @@ layout(std430, binding = 1) readonly buffer count_buffer
 #if CLAMP == 2
 layout(location = 0) uniform float clamp_d2; // m^2
 #endif
+// VPLs of this dispatch: x first, y one past the last; z 1: no dispatch follows. Until then the image
+// holds the sum, without its factor.
+layout(location = 2) uniform ivec3 span;
 layout(binding = 0, rgba32f) uniform image2D indirect;
 
 // Receivers of one invocation lie `group` pixels apart, so that neighbours load neighbours.
@@ -140,6 +143,9 @@ void main()
     // Lengths in units of about the scene: d^4 stays in range at any scale. The unit is a power of
     // two, so the scaling rounds nothing.
     float unit = view.scale.x;
+    int total = min(int(count.x), span.y);
+    if (span.x > 0 && span.x >= total && span.z == 0)
+        return;
     for (int i = 0; i < block; i++) {
         ivec2 at = min(receiver(i), view.size.xy - 1);
         p[i] = texelFetch(position_map, at, 0).xyz * unit;
@@ -147,15 +153,14 @@ void main()
         n[i] /= max(length(n[i]), 1e-6);
         sum[i] = vec3(0.0);
 #if CLAMP == 3
-        if (all(lessThan(receiver(i), view.size.xy)))
+        if (span.x == 0 && all(lessThan(receiver(i), view.size.xy)))
             imageStore(indirect, receiver(i), vec4(0.0));
 #endif
     }
-    int total = int(count.x);
 #if CLAMP == 2
     float least = pi * clamp_d2 * unit * unit;
 #endif
-    for (int start = 0; start < total; start += tile) {
+    for (int start = span.x; start < total; start += tile) {
         vec3 part[block];
         for (int i = 0; i < block; i++)
             part[i] = vec3(0.0);
@@ -207,9 +212,11 @@ void main()
         ivec2 at = receiver(i);
         if (any(greaterThanEqual(at, view.size.xy)))
             continue;
-#if CLAMP == 3
-        sum[i] += imageLoad(indirect, at).rgb;
+#if CLAMP != 3
+        if (span.x > 0)
 #endif
-        imageStore(indirect, at, vec4(min(sum[i] * (unit * unit / pi), vec3(3.0e38)), 1.0));
+            sum[i] += imageLoad(indirect, at).rgb;
+        float factor = span.z != 0 ? unit * unit / pi : 1.0;
+        imageStore(indirect, at, vec4(min(sum[i] * factor, vec3(3.0e38)), 1.0));
     }
 }

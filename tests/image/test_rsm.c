@@ -264,6 +264,35 @@ static void gather_is_the_sum_over_its_vpls(void **state)
     expect_gather("clamp=constant", constant);
 }
 
+// 6 faces of 128^2: more VPLs than rounds that some devices let a loop have.
+static void every_one_of_98304_vpls_counts(void **state)
+{
+    enum { W = 8, H = 8 };
+    (void) state;
+    const room_desc room = white_room();
+    ag_light light = ceiling_spot(58);
+    light.kind = AG_LIGHT_POINT;
+    light.position[1] = 0;
+    ag_scene *scene = room_scene(&room, &light);
+    const char *const settings[] = { "rsm_size=128", "pattern=all", "clamp=disc", NULL };
+    capture c[] = { { .resource = "rsm.vpls" },       { .resource = "rsm.count" },
+                    { .resource = "rsm.indirect" },   { .resource = "gbuffer.position" },
+                    { .resource = "gbuffer.normal" }, { 0 } };
+    image img = render_captured(scene, W, H, LAYER_INDIRECT, settings, c);
+    const uint32_t *count = c[1].bytes;
+    assert_int_equal(count[0], 6 * 128 * 128); // the room is closed
+    for (int i = 0; i < W * H; i++) {
+        const double want = gather(c[0].bytes, count[0], c[3].texels + 4 * (size_t) i,
+                                   c[4].texels + 4 * (size_t) i, disc);
+        // Sums of 64, of at most 1536 of those: 1600 roundings, most of which cancel.
+        if (fabs((double) c[2].texels[4 * (size_t) i] / want - 1) > 5e-5)
+            fail_msg("pixel %d: %.8g, not %.8g", i, (double) c[2].texels[4 * (size_t) i], want);
+    }
+    image_finish(&img);
+    captures_finish(c);
+    ag_scene_destroy(scene);
+}
+
 // Inside a sphere of albedo rho about a point light of power P every point gets rho P / (4 pi R^2)
 // from one bounce.
 static void sphere_is_lit_uniformly_by_one_bounce(void **state)
@@ -441,6 +470,7 @@ int main(void)
         cmocka_unit_test(choosing_fewer_vpls_keeps_the_energy),
         cmocka_unit_test(stratified_vpls_follow_the_seed),
         cmocka_unit_test(gather_is_the_sum_over_its_vpls),
+        cmocka_unit_test(every_one_of_98304_vpls_counts),
         cmocka_unit_test(sphere_is_lit_uniformly_by_one_bounce),
         cmocka_unit_test(scale_and_place_do_not_matter),
         cmocka_unit_test(same_frame_twice_is_bit_identical),

@@ -28,7 +28,8 @@ typedef struct ag_gather_pass {
     fg_res out;
     ag_clamp clamp;
     float clamp_d2;
-    int block; // receivers of one invocation: 1, 4 or 16
+    int block;    // receivers of one invocation: 1, 4 or 16
+    int capacity; // of `vpls`
 } ag_gather_pass;
 
 typedef struct ag_gather_desc {
