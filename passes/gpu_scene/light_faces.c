@@ -9,7 +9,13 @@
 // A spot wider than 60 degrees from axis to rim would waste most of one face on its rim.
 static const float one_face_cos = 0.5f;
 
-// The axis least along `direction`: a stable choice for lights that do not say what is up.
+// Walls and floors run along the world's axes, and so would a map's rows if it followed them: a
+// whole row at once would then fall on one side of a seam, and the power of a wall be off by half a
+// row. Turned by an angle whose tangent, the golden section, no short fraction comes near, rows
+// meet seams at every phase and the errors cancel.
+static const double turn_cos = 0.85065080835203993, turn_sin = 0.52573111211913361;
+
+// Up is the axis least along `direction`: a stable choice for lights that do not say what is up.
 static void axes_of_light(const ag_light *light, double axes[3][3])
 {
     static const double origin[3] = { 0 };
@@ -22,9 +28,11 @@ static void axes_of_light(const ag_light *light, double axes[3][3])
     const double up[3] = { least == 0, least == 1, least == 2 };
     double look[16];
     ag_mat_look_to(origin, d, up, look);
+    const bool turned = light->kind != AG_LIGHT_DIRECTIONAL; // a turned box would need a larger map
+    const double c = turned ? turn_cos : 1, s = turned ? turn_sin : 0;
     for (int i = 0; i < 3; i++) {
-        axes[0][i] = look[4 * (size_t) i];
-        axes[1][i] = look[4 * i + 1];
+        axes[0][i] = c * look[4 * (size_t) i] + s * look[4 * i + 1];
+        axes[1][i] = c * look[4 * i + 1] - s * look[4 * (size_t) i];
         axes[2][i] = -look[4 * i + 2];
     }
 }
