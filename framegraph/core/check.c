@@ -68,6 +68,7 @@ static bool count_versions(fg_graph *g)
     const decl *d = g->open;
     plan *p = g->next;
     uint32_t total = 0;
+    g->most_versions = 0;
     for (uint32_t r = 0; r < d->res_count; r++)
         p->res[r] = (res_plan){
             .versions = d->res[r].import != NONE, .first = NONE, .last = NONE, .slot = NONE
@@ -94,6 +95,8 @@ static bool count_versions(fg_graph *g)
         }
         p->res[r].version = total;
         total += p->res[r].versions;
+        if (p->res[r].versions > g->most_versions)
+            g->most_versions = p->res[r].versions;
     }
     if (!GROW(g, p->version, p->version_cap, total)) {
         fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory for %u versions", total);

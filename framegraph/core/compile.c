@@ -50,6 +50,8 @@ void fg_graph_destroy(fg_graph *g)
     fg_release(&a, g->off);
     fg_release(&a, g->table);
     fg_release(&a, g->stack);
+    fg_release(&a, g->last);
+    fg_release(&a, g->seen);
     fg_release(&a, g->time);
     fg_release(&a, g);
 }

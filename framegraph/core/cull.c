@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+enum { WALK = 16 }; // versions that are not worth an index
+
 enum { LIVE = 0 }; // plan.step_of of a pass that runs, until it has its step
 
 typedef struct span {
@@ -17,7 +19,7 @@ typedef struct cull {
     uint32_t top;  // of g->stack
     uint32_t mask; // of g->table when passes with FG_EFFECT_INTERNAL are there
     bool internals;
-    bool lenient; // FG_DEBUG_KEEP_ALL: a pass without its inputs is left out
+    bool walks; // g->seen is filled
 } cull;
 
 static void keep(cull *c, uint32_t pass)
@@ -85,6 +87,78 @@ static bool need(cull *c, const io_rec *io, uint32_t version)
         }
     }
     return made;
+}
+
+// ---- resources that are written in parts, many times --------------------------------------
+
+// The newest version that wrote any of what `io` touches; of 3D textures any slice counts.
+static uint32_t newest(const uint32_t *last, const res_rec *r, const io_rec *io)
+{
+    const uint32_t layers = sub_layers(r);
+    const uint32_t from = r->depth ? 0 : io->layer, count = r->depth ? 1 : io->layers;
+    uint32_t version = 0;
+    for (uint32_t m = io->mip; m < (uint32_t) io->mip + io->mips; m++)
+        for (uint32_t l = from; l < from + count; l++)
+            if (last[m * layers + l] > version)
+                version = last[m * layers + l];
+    return version;
+}
+
+static void set_newest(uint32_t *last, const res_rec *r, const io_rec *io)
+{
+    const uint32_t layers = sub_layers(r);
+    const uint32_t from = r->depth ? 0 : io->layer, count = r->depth ? 1 : io->layers;
+    for (uint32_t m = io->mip; m < (uint32_t) io->mip + io->mips; m++)
+        for (uint32_t l = from; l < from + count; l++)
+            last[m * layers + l] = io->version;
+}
+
+// Gives the resources worth it a place in g->last: plan.res[].written, until they are placed.
+static bool room_for_walks(cull *c)
+{
+    fg_graph *g = c->g;
+    uint64_t total = 0;
+    for (uint32_t r = 0; r < c->d->res_count; r++) {
+        const bool worth = c->p->res[r].versions > WALK && sub_count(&c->d->res[r]) > 1;
+        c->p->res[r].written = worth ? (uint32_t) total : NONE;
+        total += worth ? sub_count(&c->d->res[r]) : 0;
+    }
+    c->walks = total > 0;
+    if (!GROW(g, g->last, g->last_cap, total) || !GROW(g, g->seen, g->seen_cap, c->d->io_count))
+        return false;
+    for (uint32_t r = 0; r < c->d->res_count; r++)
+        for (uint32_t s = 0; c->p->res[r].written != NONE && s < sub_count(&c->d->res[r]); s++)
+            g->last[c->p->res[r].written + s] = c->d->res[r].import != NONE;
+    return true;
+}
+
+// Where need() of each access may begin: in a legal order an access meets the last write.
+static bool index_walks(cull *c)
+{
+    fg_graph *g = c->g;
+    if (!room_for_walks(c))
+        return false;
+    for (uint32_t i = 0; c->walks && i < c->d->pass_count; i++) {
+        const pass_rec *p = &c->d->pass[c->p->order[i]];
+        for (uint32_t k = p->io; !p->reason && k < io_end(p); k++) {
+            const io_rec *io = &c->d->io[k];
+            const uint32_t at = c->p->res[io->res].written;
+            g->work += at == NONE ? 0 : io->mips * io->layers;
+            g->seen[k] = at == NONE ? NONE : newest(g->last + at, &c->d->res[io->res], io);
+        }
+        for (uint32_t k = p->io + p->reads; !p->reason && k < io_end(p); k++) {
+            const io_rec *io = &c->d->io[k];
+            const uint32_t at = c->p->res[io->res].written;
+            if (at != NONE)
+                set_newest(g->last + at, &c->d->res[io->res], io);
+        }
+    }
+    return true;
+}
+
+static uint32_t newest_seen(const cull *c, uint32_t k, uint32_t version)
+{
+    return c->walks && c->g->seen[k] < version ? c->g->seen[k] : version;
 }
 
 // A pass that reads what nothing made.
@@ -165,8 +239,9 @@ static void keep_inputs(cull *c, uint32_t pass)
     const pass_rec *p = &c->d->pass[pass];
     const io_rec *io = &c->d->io[p->io];
     for (int k = 0; k < p->reads; k++) {
-        const uint32_t version =
-            io[k].flags & IO_LAST ? c->p->res[io[k].res].versions : io[k].version;
+        const uint32_t version = io[k].flags & IO_LAST
+                                     ? c->p->res[io[k].res].versions
+                                     : newest_seen(c, p->io + (uint32_t) k, io[k].version);
         if (need(c, &io[k], version))
             continue;
         if (io[k].flags & IO_OPTIONAL)
@@ -176,7 +251,7 @@ static void keep_inputs(cull *c, uint32_t pass)
     }
     for (int k = p->reads; k < p->reads + p->writes; k++)
         if (!(io[k].flags & (IO_CLEAR | IO_DISCARD)))
-            need(c, &io[k], io[k].version - 1u);
+            need(c, &io[k], newest_seen(c, p->io + (uint32_t) k, io[k].version - 1u));
     if (c->internals)
         keep_group(c, pass);
 }
@@ -227,6 +302,10 @@ fg_status fg_cull(fg_graph *g)
         memset(c.p->absent, 0, d->io_count);
     if (c.internals)
         index_groups(&c);
+    if (g->most_versions > WALK && !index_walks(&c)) {
+        fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory while culling");
+        return FG_ERR_MEMORY;
+    }
     for (uint32_t i = 0; i < d->pass_count; i++)
         if (d->pass[i].effect == FG_EFFECT_EXTERNAL || writes_import(&c, &d->pass[i]))
             keep(&c, i);

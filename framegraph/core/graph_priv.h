@@ -302,9 +302,11 @@ struct fg_graph {
 
     uint32_t *table; // scratch: names with their hashes, then groups, then others
     uint32_t *stack;
-    uint32_t table_cap, stack_cap;
-    uint64_t work;    // steps of the loops of the last compile
-    uint32_t missing; // while checking: versions without a pass
+    uint32_t *last, *seen; // per subresource, per access: see cull.c
+    uint32_t table_cap, stack_cap, last_cap, seen_cap;
+    uint64_t work;          // steps of the loops of the last compile
+    uint32_t missing;       // while checking: versions without a pass
+    uint32_t most_versions; // of a resource
 
     pool_rec *pool;
     pool_view *view;

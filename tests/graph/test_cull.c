@@ -2,6 +2,8 @@
 // Which passes run, which do not, and why.
 #include "rig.h"
 
+#include <stdio.h>
+
 static void dangling_leaf_and_tree_are_left_out(void **state) // C20, C21, C28
 {
     (void) state;
@@ -299,6 +301,33 @@ static void internal_pass_keeps_its_inputs(void **state) // C24
     rig_close(r);
 }
 
+static void last_writer_of_a_part_is_found_among_many_versions(void **state)
+{
+    (void) state;
+    rig *r = rig_open(0);
+    for (int lacking = 0; lacking < 2; lacking++) {
+        begin_with(r, 0);
+        const fg_res screen = fg_import_texture(r->g, "screen", &(fg_tex_desc){ 0 }, 900);
+        fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .layers = 4, .mips = 2 }), last = a;
+        for (int i = 0; i < 40; i++, a = fg_next(a)) {
+            char name[16];
+            snprintf(name, sizeof name, "w%d", i);
+            const fg_io part = { a, .layer = (uint16_t) (i % 4), .layers = 1, .mips = 1 };
+            // Pass 38 is the last one at layer 2.
+            PASSES(r, PASS(r, name, .needs = lacking && i == 38 ? 2 : 0, .writes = { part }));
+            last = a;
+        }
+        const fg_io read = { last, .layer = 2, .layers = 1, .mips = 1 };
+        PASSES(r, PASS(r, "show", .reads = { read }, .writes = { { fg_next(screen) } }));
+        rig_must_compile(r);
+        rig_must_run(r);
+        // Partial writes keep what wrote the same texels before them.
+        assert_string_equal(r->trace, lacking ? "w2 w6 w10 w14 w18 w22 w26 w30 w34 show "
+                                              : "w2 w6 w10 w14 w18 w22 w26 w30 w34 w38 show ");
+    }
+    rig_close(r);
+}
+
 static void exported_version_is_kept_and_gives_its_object(void **state)
 {
     (void) state;
@@ -368,6 +397,7 @@ int main(void)
         cmocka_unit_test(reason_follows_the_names_of_the_features),
         cmocka_unit_test(internal_effect_is_kept_while_its_group_is),
         cmocka_unit_test(internal_pass_keeps_its_inputs),
+        cmocka_unit_test(last_writer_of_a_part_is_found_among_many_versions),
         cmocka_unit_test(exported_version_is_kept_and_gives_its_object),
         cmocka_unit_test(bad_exports_are_refused),
     };

@@ -45,6 +45,13 @@ static void declare(rig *r, int count)
         before = i % 7 == 3 ? before : made;
     }
     fg_export(r->g, before);
+    // Nobody reads it, but who wrote which of its layers is looked up.
+    fg_res parts = fg_texture(r->g, "parts", &(fg_tex_desc){ .layers = 4 });
+    for (int i = 0; i < count; i++, parts = fg_next(parts)) {
+        char pass[16];
+        snprintf(pass, sizeof pass, "q%d", i);
+        PASSES(r, PASS(r, pass, .writes = { { parts, .layer = (uint16_t) (i % 4), .layers = 1 } }));
+    }
 }
 
 // A whole life; each call may fail, with FG_ERR_MEMORY and nothing else.
@@ -159,6 +166,7 @@ typedef enum shape {
     CHAIN = 0,    // each pass reads the one before
     BACKWARDS,    // the same, declared from the end
     ONE_RESOURCE, // each pass changes one buffer
+    IN_PARTS,     // each pass changes one layer of a texture, each layer five times
     WIDE,         // one pass reads each of many; 20 at a time
     ONE_READ_BY_ALL,
     SHAPES,
@@ -172,8 +180,12 @@ static void declare_many(fg_graph *g, int count, shape s)
     for (int i = 0; i < count; i++) {
         char tex[16];
         snprintf(tex, sizeof tex, "t%d", i);
-        made[i] = s == ONE_RESOURCE && i ? fg_next(made[i - 1])
-                                         : fg_buffer(g, tex, &(fg_buf_desc){ .size = 4 });
+        if (i && (s == ONE_RESOURCE || s == IN_PARTS))
+            made[i] = fg_next(made[i - 1]);
+        else if (s == IN_PARTS)
+            made[i] = fg_texture(g, tex, &(fg_tex_desc){ .layers = count / 5 });
+        else
+            made[i] = fg_buffer(g, tex, &(fg_buf_desc){ .size = 4 });
     }
     for (int k = 0; k < count; k++) {
         const int i = s == BACKWARDS ? count - 1 - k : k;
@@ -187,7 +199,13 @@ static void declare_many(fg_graph *g, int count, shape s)
             p.reads[j].res = made[i - 1 - j];
         if (i && s == ONE_READ_BY_ALL)
             p.reads[0].res = made[0];
-        p.effect = s == ONE_READ_BY_ALL ? FG_EFFECT_EXTERNAL : p.effect;
+        if (s == IN_PARTS) {
+            p.kind = FG_KIND_COMPUTE;
+            p.writes[0].layer = (uint16_t) (i % (count / 5));
+            p.writes[0].layers = 1;
+        }
+        if (s == ONE_READ_BY_ALL || s == IN_PARTS)
+            p.effect = FG_EFFECT_EXTERNAL;
         fg_passes(g, &p, 1);
     }
     free(made);
