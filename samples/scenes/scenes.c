@@ -83,7 +83,11 @@ fg_status scenes_open(const fg_log *log, const char *name, ag_scene **out)
     const char *root = getenv("AFTERGLOW_SCENES");
     if (root && root[0] && find_below(root, name, path, sizeof path))
         return ag_scene_load(log, path, out);
-    if (root && root[0])
+    struct stat st;
+    if (stat(name, &st) == 0)
+        fg_logf(log, FG_LOG_ERROR, "%.200s: %s, must be a .gltf or .glb file", name,
+                S_ISDIR(st.st_mode) ? "is a folder" : "is no regular file");
+    else if (root && root[0])
         fg_logf(log, FG_LOG_ERROR,
                 "%.200s: no such scene: no built-in one, no file, no .gltf or .glb below "
                 "AFTERGLOW_SCENES (%.300s)",
