@@ -42,7 +42,7 @@ typedef struct options {
     unsigned debug; // fg_debug bits
     bool needs_all, json, merge, unshadowed_bounce, verbose, help;
     int bounces, spp, threads; // -1: not given
-    int shard, shards;         // shards 0: not given
+    int shard, shards;         // [1, shards]; shards 0: not given
 } options;
 
 // The one error line. The first message wins: it is the nearest to the cause.

@@ -85,7 +85,7 @@ static bool set_shard(options *o, const char *text)
     part[slash - text] = 0;
     if (!parse_int(slash + 1, 1, 10000, &n) || !parse_int(part, 0, n, &i))
         return false;
-    o->shard = (int) (i % n);
+    o->shard = (int) (i ? i : n);
     o->shards = (int) n;
     return true;
 }
@@ -152,24 +152,25 @@ typedef struct option {
 } option;
 
 static const option table[] = {
-    { OPT_GI, "--gi", NULL, "NAME", "at most 32 plugins",
+    { OPT_GI, "--gi", NULL, "NAME", "a name, at most 32 times",
       "plugin for indirect light; none: direct light alone" },
-    { OPT_SET, "--set", NULL, "KEY=VALUE", "at most 64 settings",
+    { OPT_SET, "--set", NULL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
       "a parameter of the plugin; with several plugins of each that has it, or NAME.KEY=VALUE" },
     { OPT_SIZE, "--size", NULL, "WxH", "two whole numbers from 1 to 32768, as in 640x480",
-      "pixels" },
+      "pixels (512x512; report: its budget's)" },
     { OPT_FRAME, "--frame", NULL, "N", "a whole number from 0 to 1000000",
       "run frames 0 to N of the animation, 1/60 s apart, and take the last (0)" },
     { OPT_FRAMES, "--frames", NULL, "N", "a whole number from 1 to 1000000", "how many frames" },
     { OPT_TIMING_FRAMES, "--timing-frames", NULL, "N", "a whole number from 1 to 10000",
       "frames that --stats times after the one that is taken (5)" },
     { OPT_LAYER, "--layer", NULL, "L", "",
-      "final, radiance, direct, indirect, albedo, normal or position" },
+      "radiance, direct, indirect, albedo, normal, position or, of a rendered frame, final" },
     { OPT_FORMAT, "--format", NULL, "F", "", "how to write it" },
     { OPT_FILTER, "--filter", NULL, "F", "",
       "point: pixel centres, as a rasteriser samples; or box" },
     { OPT_BUDGET, "--budget", NULL, "B", "", "quick (256x256, a handful of settings) or full" },
-    { OPT_OUTPUT, "--output", "-o", "FILE", "", "where the result goes" },
+    { OPT_OUTPUT, "--output", "-o", "FILE", "",
+      "where the result goes; FILE is a folder where there are several" },
     { OPT_STATS, "--stats", NULL, "FILE", "",
       "JSON: frame and per-pass times, counters, memory, what was left out" },
     { OPT_PLUGIN_DIR, "--plugin-dir", NULL, "DIR", "", "a folder to look for plugins in first" },
@@ -196,10 +197,11 @@ static const option table[] = {
       "every surface along a bounce ray counts, none hides another" },
     { OPT_BOUNCES, "--bounces", NULL, "N", "a whole number from 0 to 64",
       "transports from surface to surface; 0: direct light alone (1)" },
-    { OPT_SPP, "--spp", NULL, "N", "a whole number from 1 to 1048576", "samples a pixel (64)" },
+    { OPT_SPP, "--spp", NULL, "N", "a whole number from 1 to 1048576",
+      "samples a pixel (64; report: its budget's)" },
     { OPT_THREADS, "--threads", NULL, "N", "a whole number from 0 to 1024", "0: all (0)" },
-    { OPT_SHARD, "--shard", NULL, "I/N", "I/N with I from 1 to N",
-      "measure every N-th setting only, from the I-th on" },
+    { OPT_SHARD, "--shard", NULL, "I/N", "I/N with I from 1 to N, or 0 for N",
+      "measure every N-th setting only, from the I-th on; 1/N to N/N are the whole" },
     { OPT_VERBOSE, "--verbose", "-v", NULL, "", "say more on stderr" },
     { OPT_HELP, "--help", "-h", NULL, "", "this text" },
 };
@@ -397,7 +399,10 @@ void options_help(FILE *f, const command *cmd)
         snprintf(name, sizeof name, "%s%s%s%s%s", opt->letter ? opt->letter : "",
                  opt->letter ? ", " : "", opt->name, opt->value ? " " : "",
                  opt->value ? opt->value : "");
-        fprintf(f, "  %-24s %s\n", name, opt->help);
+        fprintf(f, "  %-24s", name);
+        if (strlen(name) > 24)
+            fprintf(f, "\n%26s", "");
+        fprintf(f, " %s\n", opt->help);
     }
     if (listed(cmd->option_names, "--light"))
         fprintf(

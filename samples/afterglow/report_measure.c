@@ -225,7 +225,7 @@ static fg_status choose_jobs(measure *m)
     for (int k = 0; k < m->jobs->count; ++k) {
         const job *j = &m->jobs->jobs[k];
         const char *lacks;
-        if (o->shards && (m->scene_number * m->jobs->count + k + 1) % o->shards != o->shard)
+        if (o->shards && (m->scene_number * m->jobs->count + k + 1 - o->shard) % o->shards)
             continue;
         if (host_serves(&m->h, j->s.plugin, &lacks)) {
             m->records[k] = cJSON_CreateObject();
