@@ -3,6 +3,8 @@
 #include "host.h"
 #include "record.h"
 
+#include <string.h>
+
 // Frames 0 to `last`, 1/60 s apart.
 static fg_status run_frames(renderer *r, int last)
 {
@@ -65,6 +67,9 @@ static int check(host *h, renderer_layer *layer)
                         h->o->gi_count);
     if (code == EXIT_DONE)
         code = host_check_output(h->c, h->o, true);
+    if (code == EXIT_DONE && h->o->stats && !strcmp(h->o->stats, h->o->output))
+        code = cli_fail(h->c, EXIT_USAGE, "--stats: is '%s', which is where the picture goes",
+                        h->o->stats);
     if (code == EXIT_DONE && h->o->stats)
         code = cli_status(h->c, file_check(&h->c->log, h->o->stats));
     return code;

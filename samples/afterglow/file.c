@@ -11,7 +11,7 @@
 
 static fg_status cannot(const fg_log *log, const char *path, const char *what, int error)
 {
-    fg_logf(log, FG_LOG_ERROR, "%s: cannot %s: %s", path, what, strerror(error));
+    fg_logf(log, FG_LOG_ERROR, "%.600s: cannot %s: %s", path, what, strerror(error));
     return error == ENOMEM ? FG_ERR_MEMORY : FG_ERR_IO;
 }
 
@@ -42,12 +42,11 @@ static int open_target(const char *path, file *out)
         errno = EISDIR;
         return -1;
     }
-    if (there && !S_ISREG(st.st_mode))
-        return open(path, O_WRONLY | O_CLOEXEC);
-    out->path = there ? realpath(path, NULL) : strdup(path);
+    const bool regular = !there || S_ISREG(st.st_mode);
+    out->path = there && regular ? realpath(path, NULL) : strdup(path);
     if (!out->path)
         return -1;
-    return open_beside(out);
+    return regular ? open_beside(out) : open(path, O_WRONLY | O_CLOEXEC);
 }
 
 static void forget(file *f)
@@ -90,7 +89,7 @@ fg_status file_end(const fg_log *log, file *f, bool keep)
         }
     }
     if (keep && !written)
-        status = cannot(log, f->path ? f->path : "output", "write", errno ? errno : EIO);
+        status = cannot(log, f->path, "write", errno ? errno : EIO);
     forget(f);
     return status;
 }
@@ -114,7 +113,7 @@ fg_status file_write(const fg_log *log, const char *path, const void *data, size
 
 static fg_status refuse(const fg_log *log, const char *path, const char *why)
 {
-    fg_logf(log, FG_LOG_ERROR, "%s: cannot read: %s", path, why);
+    fg_logf(log, FG_LOG_ERROR, "%.600s: cannot read: %s", path, why);
     return FG_ERR_INPUT;
 }
 

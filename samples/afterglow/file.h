@@ -15,7 +15,7 @@ FG_BEGIN
 //         status = file_end(log, &out, true);
 //     }
 //
-// Symbolic links are followed. What is there and no regular file (a pipe, /dev/null) is
+// Symbolic links are followed; one that leads nowhere is replaced. What is there and no regular file (a pipe, /dev/null) is
 // written to directly.
 typedef struct file {
     FILE *stream;        // read and write, binary

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli.h"
 
+#include <fcntl.h>
 #include <string.h>
+#include <unistd.h>
 
 static const command *const commands[] = {
     &command_render,
@@ -38,6 +40,13 @@ static void print_help(void)
         "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 input refused.\n");
 }
 
+static int unknown_command(cli *c, const char *name)
+{
+    if (!name[0])
+        return cli_fail(c, EXIT_USAGE, "command: its name is empty");
+    return cli_fail(c, EXIT_USAGE, "%s: unknown command; 'afterglow --help' lists them", name);
+}
+
 static int run_help(cli *c, int argc, char **argv)
 {
     if (argc < 1) {
@@ -46,8 +55,7 @@ static int run_help(cli *c, int argc, char **argv)
     }
     const command *cmd = find_command(argv[0]);
     if (!cmd)
-        return cli_fail(c, EXIT_USAGE, "%s: unknown command; 'afterglow --help' lists them",
-                        argv[0]);
+        return unknown_command(c, argv[0]);
     options_help(stdout, cmd);
     return EXIT_DONE;
 }
@@ -65,8 +73,7 @@ static int run(cli *c, int argc, char **argv)
         return run_help(c, argc - 2, argv + 2);
     const command *cmd = find_command(argv[1]);
     if (!cmd)
-        return cli_fail(c, EXIT_USAGE, "%s: unknown command; 'afterglow --help' lists them",
-                        argv[1]);
+        return unknown_command(c, argv[1]);
     const int code = options_parse(c, cmd, argc - 2, argv + 2, &o);
     if (code != EXIT_DONE)
         return code;
@@ -79,9 +86,19 @@ static int run(cli *c, int argc, char **argv)
     return cmd->run(c, &o);
 }
 
+// A stream that the caller closed would be the next file that is opened, and a warning a line in
+// a picture. What stands in its place cannot be written to, so that lost results are noticed.
+static void occupy_streams(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
+        if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0)
+            return;
+}
+
 int main(int argc, char **argv)
 {
     cli c;
+    occupy_streams();
     cli_init(&c);
     int code = run(&c, argc, argv);
     if (code == EXIT_DONE && (fflush(stdout) || ferror(stdout)))
