@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 void host_init(host *h, cli *c, const options *o)
 {
@@ -22,9 +23,21 @@ void host_finish(host *h)
     *h = (host){ 0 };
 }
 
+// A folder that an option names, if it does, has to be there.
+static int check_folder(cli *c, const char *option, const char *path)
+{
+    struct stat st;
+    if (!path || (stat(path, &st) == 0 && S_ISDIR(st.st_mode)))
+        return EXIT_DONE;
+    return cli_fail(c, EXIT_INPUT, "%s: there is no folder '%.600s'", option, path);
+}
+
 int host_open_registry(host *h)
 {
     const char *const dirs[] = { h->o->plugin_dir, NULL };
+    const int code = check_folder(h->c, "--plugin-dir", h->o->plugin_dir);
+    if (code != EXIT_DONE)
+        return code;
     return cli_status(
         h->c,
         gi_registry_create(&(gi_registry_desc){ .log = &h->c->log, .dirs = dirs }, &h->registry));
@@ -32,6 +45,9 @@ int host_open_registry(host *h)
 
 int host_open_device(host *h)
 {
+    const int code = check_folder(h->c, "--shader-dir", h->o->shader_dir);
+    if (code != EXIT_DONE)
+        return code;
     fg_status status = fg_gl_context_create(
         &(fg_gl_context_desc){ .log = &h->c->log, .device = h->o->device }, &h->context);
     if (status == FG_ERR_INVALID)
@@ -104,6 +120,9 @@ static int choose_camera(host *h)
 {
     h->has_camera = false;
     h->camera_index = 0;
+    if (h->o->camera && h->o->camera_at_given)
+        return cli_fail(h->c, EXIT_USAGE,
+                        "--camera: --camera-at is given too, must be one of them");
     if (h->o->camera) {
         h->camera_index = ag_scene_find_camera(h->scene, h->o->camera);
         if (h->camera_index < 0)
@@ -237,6 +256,7 @@ int host_setting(host *h, const char *name, setting *out)
     if (!plugin) {
         cli_forgive(h->c);
         cli_warn("%s: direct light alone", name);
+        h->refused = true;
         return EXIT_DONE;
     }
     *out = (setting){ .plugin = plugin, .values = new_values(plugin) };
@@ -260,7 +280,7 @@ int host_check_set(host *h, const setting *settings, int count)
 {
     for (int i = 0; i < h->o->set_count; ++i) {
         const char *text = h->o->set[i];
-        bool taken = false;
+        bool taken = h->refused;
         if (!strchr(text, '='))
             return cli_fail(h->c, EXIT_USAGE, "--set: is '%s', must be KEY=VALUE", text);
         for (int k = 0; k < count; ++k) {
@@ -276,6 +296,20 @@ int host_check_set(host *h, const setting *settings, int count)
     return EXIT_DONE;
 }
 
+// The plugins that can be had; a warning for each that cannot.
+static int sound_names(host *h, const char *names[CLI_MAX_GI])
+{
+    const char *name;
+    int n = 0;
+    for (int i = 0; n < CLI_MAX_GI && (name = gi_name(h->registry, i)); ++i) {
+        if (gi_find(h->registry, name))
+            names[n++] = name;
+        else
+            cli_forgive(h->c);
+    }
+    return n;
+}
+
 int host_settings(host *h, bool all, setting *out, int *count)
 {
     const char *names[CLI_MAX_GI];
@@ -283,8 +317,7 @@ int host_settings(host *h, bool all, setting *out, int *count)
     for (; n < h->o->gi_count; ++n)
         names[n] = h->o->gi[n];
     if (!n && all)
-        while (n < CLI_MAX_GI && (names[n] = gi_name(h->registry, n)))
-            ++n;
+        n = sound_names(h, names);
     else if (!n)
         names[n++] = "none";
     *count = 0;

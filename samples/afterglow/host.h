@@ -32,6 +32,7 @@ typedef struct host {
     fg_device *device;
     bool as_it_is;  // host_open_scene() adds no default light
     bool fell_back; // the plugin failed in create: direct light goes on alone
+    bool refused;   // a module that was asked for was refused: nobody knows its parameters
 } host;
 
 void host_init(host *h, cli *c, const options *o);
@@ -47,10 +48,10 @@ int host_open_device(host *h);
 // The plugin `name` with the values that --set gives. An unknown name is wrong usage; a module
 // that is there and was refused leaves plugin NULL, with a warning: direct light goes on alone.
 int host_setting(host *h, const char *name, setting *out);
-// One setting for each --gi, or for each plugin there is when `all` and none was given.
+// One setting for each --gi, or for each plugin that loads when `all` and none was given.
 // `out` has CLI_MAX_GI entries.
 int host_settings(host *h, bool all, setting *out, int *count);
-// Complains about a --set that none of the plugins takes.
+// Complains about a --set that none of the plugins takes, unless one was refused.
 int host_check_set(host *h, const setting *settings, int count);
 
 // The camera at the scene's current time.

@@ -10,12 +10,12 @@ BINARY = os.environ['AFTERGLOW']
 
 
 class Run:
-    def __init__(self, args, env=None):
-        done = subprocess.run([BINARY, *map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              stdin=subprocess.DEVNULL, env={**os.environ, **(env or {})}, timeout=300)
+    def __init__(self, args, env=None, **streams):
+        streams = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'stdin': subprocess.DEVNULL, **streams}
+        done = subprocess.run([BINARY, *map(str, args)], env={**os.environ, **(env or {})}, timeout=300, **streams)
         self.code, self.args = done.returncode, args
-        self.out = done.stdout.decode(errors='replace')
-        self.err = done.stderr.decode(errors='replace')
+        self.out = (done.stdout or b'').decode(errors='replace')
+        self.err = (done.stderr or b'').decode(errors='replace')
 
     def lines(self, kind):
         return [line for line in self.err.splitlines() if line.startswith('afterglow: ' + kind + ': ')]

@@ -3,7 +3,7 @@
 import os
 import struct
 
-from harness import fails, main, succeeds
+from harness import Run, fails, main, succeeds
 
 COMMANDS = ['render', 'sequence', 'reference', 'compare', 'report', 'stability', 'graph', 'plugins',
             'scenes', 'info']
@@ -19,6 +19,7 @@ def help_is_there_for_every_command(folder):
 
 def unknown_words_are_wrong_usage(folder):
     fails(2, ['command'])
+    fails(2, ['command', 'empty'], '')
     fails(2, ['frobnicate', 'unknown command'], 'frobnicate')
     fails(2, ['--frobnicate', 'unknown option'], 'render', 'cornell', '--frobnicate')
     fails(2, ['--spp', 'unknown option'], 'render', 'cornell', '--spp', 1)
@@ -44,6 +45,10 @@ def bad_values_name_option_value_and_rule(folder):
     fails(2, ['--unshadowed-bounce'], 'reference', 'cornell', '--bounces', 0, '--unshadowed-bounce', '-o',
           picture)
     fails(2, ['--frames', 'missing'], 'sequence', 'cornell', '-o', folder + '/s')
+    fails(2, ['--stats', 'a.png'], 'render', 'cornell', '-o', picture, '--stats', picture)
+    fails(2, ['--gi', 'a name'], 'render', 'cornell', '--gi', '', '-o', picture)
+    fails(3, ['--plugin-dir', 'no folder'], 'plugins', '--plugin-dir', folder + '/none')
+    fails(3, ['--shader-dir', 'no folder'], 'render', 'cornell', '--shader-dir', folder + '/none', '-o', picture)
     fails(2, ['--format', 'xml'], 'graph', 'cornell', '--format', 'xml')
     fails(2, ['--budget', 'huge'], 'report', '--budget', 'huge', '-o', folder + '/r')
     fails(2, ['--shard', '3/2'], 'report', '--shard', '3/2', '-o', folder + '/r')
@@ -73,6 +78,19 @@ def a_refused_module_leaves_direct_light(folder):
     assert any('gi_broken' in line or 'broken' in line for line in run.lines('warning')), run
     succeeds('render', 'cornell', '--size', '16x16', '--layer', 'radiance', '-o', b)
     assert open(a, 'rb').read() == open(b, 'rb').read()
+    # Nobody knows the parameters of what cannot be loaded.
+    succeeds('render', 'cornell', '--size', '16x16', '--layer', 'radiance', '--gi', 'broken', '--set', 'steps=3',
+             '--plugin-dir', folder, '-o', a)
+    assert open(a, 'rb').read() == open(b, 'rb').read()
+
+
+def every_plugin_means_those_that_load(folder):
+    with open(folder + '/gi_broken.so', 'w') as f:
+        f.write('no module')
+    run = succeeds('stability', 'no_light', '--plugin-dir', folder, '-o', folder)
+    assert len([line for line in run.lines('warning') if 'broken' in line]) == 1, run
+    columns = run.out.split('\n')[0].split()
+    assert columns.count('none') == 1 and 'rsm' in columns and 'broken' not in columns, run
 
 
 def scenes_that_are_missing_or_broken_are_refused(folder):
@@ -84,7 +102,8 @@ def scenes_that_are_missing_or_broken_are_refused(folder):
         with open(os.path.join(folder, name), 'wb') as f:
             f.write(data)
         fails(3, [name], 'render', os.path.join(folder, name), '-o', picture)
-    fails(3, [], 'render', folder, '-o', picture)
+    fails(3, ['is a folder'], 'render', folder, '-o', picture)
+    fails(3, ['no regular file'], 'render', '/dev/zero', '-o', picture)
     assert not os.path.exists(picture)
 
 
@@ -92,6 +111,7 @@ def cameras_and_lights_are_checked(folder):
     picture = folder + '/a.png'
     common = ['render', 'cornell', '--size', '8x8', '-o', picture]
     fails(2, ['--camera', 'sideways'], *common, '--camera', 'sideways')
+    fails(2, ['--camera', '--camera-at'], *common, '--camera', 'front', '--camera-at', '0,0,0:1,1,1')
     for text in ['1,2,3', '1,2,3:1,2,3', '1,2:3,4,5', '0,0,0:1,1,1:0', '0,0,0:1,1,1:180', 'a,b,c:1,2,3']:
         fails(2, ['--camera-at', text], *common, '--camera-at', text)
     for text in ['lamp:0,0,0:1,1,1', 'point:0,0:1,1,1', 'point:0,0,0:-1,1,1', 'spot:0,0,0:0,0,0:1,1,1',
@@ -137,6 +157,28 @@ def outputs_that_cannot_be_written_fail_before_the_work(folder):
     assert sorted(os.listdir(folder)) == ['is.png', 'plain']
 
 
+def results_that_nobody_can_take_are_a_failure(folder):
+    picture = folder + '/a.pfm'
+    with open('/dev/full', 'w') as full:
+        for words in [['plugins'], ['info', 'cornell'], ['graph', 'cornell', '--size', '8x8'], ['--help']]:
+            assert Run(words, stdout=full).code == 1, words
+    run = fails(1, ['/dev/full'], 'render', 'cornell', '--size', '8x8', '-o', picture, '--stats', '/dev/full')
+    assert not os.path.exists(picture), run
+    run = Run(['plugins'], preexec_fn=lambda: os.close(1))
+    assert run.code == 1 and run.lines('error') == ['afterglow: error: stdout: cannot write'], run
+
+
+def a_warning_never_ends_in_a_picture(folder):
+    # A descriptor that the caller closed must not become the file's.
+    with open(folder + '/gi_broken.so', 'w') as f:
+        f.write('no module')
+    pictures = [folder + '/a.pfm', folder + '/b.pfm']
+    words = ['render', 'cornell', '--size', '8x8', '--gi', 'broken', '--plugin-dir', folder, '-o']
+    succeeds(*words, pictures[0])
+    assert Run([*words, pictures[1]], preexec_fn=lambda: os.closerange(0, 3)).code == 0
+    assert open(pictures[0], 'rb').read() == open(pictures[1], 'rb').read()
+
+
 def control_letters_stay_in_one_line(folder):
     fails(3, [], 'render', folder + '/two\nlines.gltf', '-o', folder + '/a.png')
 
@@ -146,4 +188,5 @@ if __name__ == '__main__':
           bad_values_name_option_value_and_rule, plugins_and_parameters_are_checked,
           a_refused_module_leaves_direct_light, scenes_that_are_missing_or_broken_are_refused,
           cameras_and_lights_are_checked, pictures_that_are_broken_are_refused,
-          outputs_that_cannot_be_written_fail_before_the_work, control_letters_stay_in_one_line])
+          every_plugin_means_those_that_load, outputs_that_cannot_be_written_fail_before_the_work,
+          results_that_nobody_can_take_are_a_failure, a_warning_never_ends_in_a_picture, control_letters_stay_in_one_line])
