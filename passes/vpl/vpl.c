@@ -11,12 +11,34 @@
 
 static_assert(sizeof(ag_vpl) == 48, "std430 layout of ag_vpl");
 
-enum { GROUP = 256 }; // VPLs of one work group, both shaders
+enum {
+    GROUP = 256,        // VPLs of one work group, both shaders
+    MAX_GROUPS = 65535, // along one axis, as every device has them
+    WIDE_BLOCK = 16,    // texels along the edge of a block from which on a work group sums it
+};
+
+static bool is_wide(const ag_vpl_pass *pass)
+{
+    return pass->block >= WIDE_BLOCK;
+}
+
+// A work group a VPL; more than fit along one axis fill rows.
+static void dispatch_wide(const fg_run *run, const ag_vpl_pass *pass)
+{
+    const uint32_t zero = 0;
+    const int row = pass->capacity < MAX_GROUPS ? pass->capacity : MAX_GROUPS;
+    glClearNamedBufferData(fg_run_object(run, pass->groups), GL_R32UI, GL_RED_INTEGER,
+                           GL_UNSIGNED_INT, &zero);
+    fg_gl_dispatch_2d(row, (pass->capacity + row - 1) / row, 1, 1);
+}
 
 static fg_status run_build(const fg_run *run, void *user)
 {
     const ag_vpl_pass *pass = user;
-    const fg_gl_program_desc desc = { .shaders = { &vpl_build_comp } };
+    const fg_gl_program_desc desc = {
+        .shaders = { &vpl_build_comp },
+        .defines = is_wide(pass) ? "WIDE=1" : "",
+    };
     const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
     if (!program)
         return FG_ERR_SHADER;
@@ -30,7 +52,10 @@ static fg_status run_build(const fg_run *run, void *user)
                        pass->pattern == AG_VPL_STRATIFIED);
     glProgramUniform1ui(program, 1, pass->seed);
     glUseProgram(program);
-    fg_gl_dispatch_2d(pass->capacity, 1, GROUP, 1);
+    if (is_wide(pass))
+        dispatch_wide(run, pass);
+    else
+        fg_gl_dispatch_2d(pass->capacity, 1, GROUP, 1);
     return FG_OK;
 }
 
@@ -89,6 +114,21 @@ static void declare_passes(ag_vpl_pass *pass, fg_graph *g, const char *prefix)
     fg_passes(g, passes, FG_COUNT(passes));
 }
 
+// False, and said to the graph, where one buffer or one dispatch cannot take all VPLs.
+static bool fits_device(const ag_vpl_pass *pass, fg_graph *g, const char *prefix)
+{
+    const int64_t vpls = pass->capacity, bytes = vpls * (int64_t) sizeof(ag_vpl);
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    const int64_t fit = most / (int64_t) sizeof(ag_vpl);
+    const int64_t limit = fit < MAX_GROUPS * GROUP ? fit : MAX_GROUPS * GROUP;
+    if (vpls <= limit)
+        return true;
+    fg_fail(g, "%s: %lld VPLs in %.0f MiB, the device takes %lld", prefix, (long long) vpls,
+            (double) bytes / 1048576, (long long) limit);
+    return false;
+}
+
 void ag_vpl_declare(ag_vpl_pass *pass, fg_graph *g, const ag_rsm_pass *rsm, const ag_vpl_desc *desc)
 {
     const int grid = desc->pattern == AG_VPL_ALL ? rsm->size : desc->grid;
@@ -108,6 +148,8 @@ void ag_vpl_declare(ag_vpl_pass *pass, fg_graph *g, const ag_rsm_pass *rsm, cons
     }
     pass->block = rsm->size / grid;
     pass->capacity = grid * grid * rsm->face_count;
+    if (!fits_device(pass, g, desc->prefix))
+        return;
     const uint64_t bytes = (uint64_t) pass->capacity * sizeof(ag_vpl);
     const uint64_t groups = ((uint64_t) pass->capacity + GROUP - 1) / GROUP;
     pass->blocks = named_buffer(g, desc->prefix, "blocks", bytes);

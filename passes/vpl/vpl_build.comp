@@ -5,6 +5,8 @@
 // In:  position RGBA32F (w area), normal RGBA16F, flux RGBA32F, a layer a face; faces
 // Out: ag_vpl[], invalid ones with flux 0; valid VPLs of each group
 //
+// WIDE: a work group makes one VPL of a large block, instead of an invocation.
+//
 // A VPL sits on one texel of its block and carries the block's summed flux and area, so that no
 // energy is lost or made by choosing fewer.
 // Source: Nichols, Shopf, Wyman 2009, sec. 3.2.2, the VPL cache.
@@ -21,7 +23,7 @@ layout(std430, binding = 0) writeonly buffer vpl_buffer
 {
     ag_vpl vpls[];
 };
-layout(std430, binding = 1) writeonly buffer group_buffer
+layout(std430, binding = 1) buffer group_buffer
 {
     uint valid_in_group[];
 };
@@ -32,8 +34,6 @@ layout(std430, binding = 2) readonly buffer face_buffer
 layout(location = 0) uniform ivec4 layout_; // x: blocks along an edge; y: texels along a block's
                                             // edge; z: VPLs in all; w: 1: jittered
 layout(location = 1) uniform uint seed;
-
-shared uint valid_here;
 
 // A well-mixed number of three: multiply, xor of high on low bits, twice over.
 uint mix_bits(uint x)
@@ -85,41 +85,86 @@ void pack_edges(ag_gpu_face f, vec3 p, vec3 n, inout ag_vpl v)
     v.flux.w = pack_edge(dv * to_unit, t, b);
 }
 
-ag_vpl make_vpl(uint index)
+// What a block holds: the sum of flux and area, and the lit texel nearest to the wanted one.
+struct block_sum {
+    vec4 flux_area;
+    int nearest; // squared distance, texels^2
+    int best;    // texel of the block, by row; -1: none is lit
+};
+
+// Of two texels equally near the one of the lower index, in whatever order they come.
+block_sum add_blocks(block_sum a, block_sum b)
 {
-    int grid = layout_.x, block = layout_.y;
+    bool second = b.nearest < a.nearest || (b.nearest == a.nearest && b.best < a.best);
+    return block_sum(a.flux_area + b.flux_area, second ? b.nearest : a.nearest,
+                     second ? b.best : a.best);
+}
+
+ivec3 corner_of(uint index)
+{
+    int grid = layout_.x;
     int face = int(index) / (grid * grid);
     int cell = int(index) % (grid * grid);
-    ivec2 corner = ivec2(cell % grid, cell / grid) * block;
+    return ivec3(ivec2(cell % grid, cell / grid) * layout_.y, face);
+}
+
+// Of the block's texels `first`, `first` + `step`, ...
+block_sum sum_texels(uint index, int first, int step)
+{
+    int block = layout_.y;
+    ivec3 corner = corner_of(index);
     ivec2 wanted = wanted_texel(index, block);
-    ivec2 best = ivec2(-1);
-    int nearest = 1 << 30;
-    float area = 0.0;
-    vec3 flux = vec3(0.0);
-    for (int i = 0; i < block * block; i++) {
+    block_sum sum = block_sum(vec4(0.0), 1 << 30, -1);
+    for (int i = first; i < block * block; i += step) {
         ivec2 at = ivec2(i % block, i / block);
-        float a = texelFetch(position_map, ivec3(corner + at, face), 0).w;
-        vec3 f = texelFetch(flux_map, ivec3(corner + at, face), 0).rgb;
-        if (a <= 0.0 || max(f.r, max(f.g, f.b)) <= 0.0)
+        float area = texelFetch(position_map, corner + ivec3(at, 0), 0).w;
+        vec3 flux = texelFetch(flux_map, corner + ivec3(at, 0), 0).rgb;
+        if (area <= 0.0 || max(flux.r, max(flux.g, flux.b)) <= 0.0)
             continue;
-        area += a;
-        flux += f;
         ivec2 off = at - wanted;
-        int distance2 = off.x * off.x + off.y * off.y;
-        if (distance2 < nearest) {
-            nearest = distance2;
-            best = at;
-        }
+        sum = add_blocks(sum, block_sum(vec4(flux, area), off.x * off.x + off.y * off.y, i));
     }
-    if (best.x < 0)
+    return sum;
+}
+
+ag_vpl make_vpl(uint index, block_sum sum)
+{
+    if (sum.best < 0)
         return ag_vpl(vec4(0.0), vec4(0.0), vec4(0.0));
-    ivec3 texel = ivec3(corner + best, face);
+    int block = layout_.y;
+    ivec3 texel = corner_of(index) + ivec3(sum.best % block, sum.best / block, 0);
     vec3 p = texelFetch(position_map, texel, 0).xyz;
     vec3 n = normalize(texelFetch(normal_map, texel, 0).xyz);
-    ag_vpl v = ag_vpl(vec4(p, area), vec4(n, 0.0), vec4(flux, 0.0));
-    pack_edges(faces[face], p, n, v);
+    ag_vpl v = ag_vpl(vec4(p, sum.flux_area.a), vec4(n, 0.0), vec4(sum.flux_area.rgb, 0.0));
+    pack_edges(faces[texel.z], p, n, v);
     return v;
 }
+
+#ifdef WIDE
+shared block_sum parts[256];
+
+// A work group a VPL.
+void main()
+{
+    uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    uint me = gl_LocalInvocationIndex;
+    if (index >= uint(layout_.z)) // the whole group
+        return;
+    parts[me] = sum_texels(index, int(me), 256);
+    for (uint half_ = 128; half_ > 0; half_ /= 2) {
+        barrier();
+        if (me < half_)
+            parts[me] = add_blocks(parts[me], parts[me + half_]);
+    }
+    if (me > 0)
+        return;
+    ag_vpl v = make_vpl(index, parts[0]);
+    vpls[index] = v;
+    if (v.position_area.w > 0.0)
+        atomicAdd(valid_in_group[index / 256], 1u); // cleared before
+}
+#else
+shared uint valid_here;
 
 void main()
 {
@@ -128,7 +173,7 @@ void main()
         valid_here = 0;
     barrier();
     if (index < uint(layout_.z)) {
-        ag_vpl v = make_vpl(index);
+        ag_vpl v = make_vpl(index, sum_texels(index, 0, 1));
         vpls[index] = v;
         if (v.position_area.w > 0.0)
             atomicAdd(valid_here, 1u);
@@ -137,3 +182,4 @@ void main()
     if (gl_LocalInvocationIndex == 0)
         valid_in_group[gl_WorkGroupID.x] = valid_here;
 }
+#endif

@@ -122,10 +122,37 @@ static void mistakes_name_pass_value_and_rule(void **state)
     ag_scene_destroy(scene);
 }
 
+// 18 maps of 2^20 VPLs, 864 MiB: beyond what one dispatch may have on every device.
+static void more_vpls_than_the_device_takes_are_refused(void **state)
+{
+    (void) state;
+    static const room_desc room = { 0 };
+    const ag_light lamp = { .name = "lamp", .intensity = { 1, 1, 1 } };
+    ag_builder *b = room_builder(&room);
+    for (int i = 0; i < 3; i++)
+        ag_builder_light(b, -1, &lamp);
+    ag_scene *scene = finish_scene(b);
+    const ag_gpu_scene_desc desc = { .log = test_log(), .device = device(), .scene = scene };
+    gather_host h = { 0 };
+    assert_int_equal(ag_gpu_scene_create(&desc, &h.gpu), FG_OK);
+    h.graph = fg_graph_create(&(fg_graph_desc){ .device = device(), .log = test_log() });
+    fg_graph_begin(h.graph, &(fg_frame_desc){ .width = 4, .height = 4 });
+    const ag_scene_res res = ag_gpu_scene_import(h.gpu, h.graph);
+    log_clear();
+    ag_rsm_declare(&h.rsm, h.graph, h.gpu, &res, &(ag_rsm_desc){ .prefix = "map", .size = 1024 });
+    ag_vpl_declare(&h.vpl, h.graph, &h.rsm, &(ag_vpl_desc){ .prefix = "map" });
+    assert_int_not_equal(fg_graph_compile(h.graph), FG_OK);
+    assert_non_null(strstr(log_text(), "map: 18874368 VPLs in 864 MiB, the device takes "));
+    fg_graph_destroy(h.graph);
+    ag_gpu_scene_destroy(h.gpu);
+    ag_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(receivers_of_an_invocation_share_nothing_but_loads),
+        cmocka_unit_test(more_vpls_than_the_device_takes_are_refused),
         cmocka_unit_test(mistakes_name_pass_value_and_rule),
     };
     return cmocka_run_group_tests(tests, device_setup, device_teardown);

@@ -198,6 +198,12 @@ static void choosing_fewer_vpls_keeps_the_energy(void **state)
         if (fabs(got / want - 1) > 1e-5)
             fail_msg("%s %s: %.7f W of %.7f W", settings[0], settings[1], got, want);
     }
+    // Blocks of 262144 texels, that no device may leave half-way.
+    const char *const large[] = { "rsm_size=512", "pattern=all", NULL };
+    const char *const one[] = { "rsm_size=512", "vpls=1", NULL };
+    const double full = room_power(scene, large), got = room_power(scene, one);
+    if (fabs(got / full - 1) > 1e-5)
+        fail_msg("one VPL of 512 x 512 texels: %.7f W of %.7f W", got, full);
     ag_scene_destroy(scene);
 }
 

@@ -20,6 +20,8 @@ typedef enum ag_vpl_pattern {
 //
 // Shapes: vpls: ag_vpl[capacity] (pass/vpl_shared.h), valid ones first, in the order of faces and
 //         rows; count: uvec4, x valid ones, y blocks.
+// Errors: more blocks than a storage block of the device holds, or than 65535 x 256, fail the
+//         graph: OpenGL's least is 2.8 million.
 typedef struct ag_vpl_pass {
     fg_res position, normal, flux, faces, blocks, groups;
     fg_res vpls, count;
