@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test: the release build on whatever GL there is, the CPU side
-# again under ASan and UBSan, the frame graph on its own, the installed package, the linters.
+# again under ASan and UBSan, with clang, the frame graph on its own, the installed package, the
+# linters.
 # Ends with "N passed, N failed". A skipped test is a failed one.
 #
 #     ./test.sh            everything
-#     ./test.sh NAME...    only these steps: build sanitize alone install format tidy cppcheck
+#     ./test.sh NAME...    only these steps: build sanitize clang alone install format tidy
+#                          cppcheck
 set -u
 cd "$(dirname "$0")"
 .ci/setup test || exit 1
 
 passed=0 failed=0
-steps="${*:-build sanitize alone install format tidy cppcheck}"
+steps="${*:-build sanitize clang alone install format tidy cppcheck}"
 jobs=$(nproc)
 
 report() { # name status
@@ -67,24 +69,26 @@ wanted() { [[ " $steps " == *" $1 "* ]]; }
 
 sources() { git ls-files '*.c' '*.h' '*.cpp' 2>/dev/null || find framegraph passes plugins samples tests -name '*.[ch]' -o -name '*.cpp'; }
 
+clang_build() {
+    CC=clang CXX=clang++ build_in build-clang -Dwerror=true
+}
+
 alone() { # the frame graph with nothing but libepoxy and EGL
     build_in build-alone -Dpasses=false -Dwerror=true
 }
 
-installed() { # a host outside the tree, built against the installed package
-    local prefix=$PWD/build-install/prefix
-    rm -rf build-install && mkdir -p build-install
-    DESTDIR= meson install -C build --no-rebuild --destdir "$prefix" >/dev/null || return 1
-    local pc
-    pc=$(dirname "$(find "$prefix" -name afterglow-framegraph.pc)")
-    cp samples/embed/host_graph.c build-install/
-    export PKG_CONFIG_PATH=$pc PKG_CONFIG_SYSROOT_DIR=$prefix
-    cc -std=c11 -D_GNU_SOURCE build-install/host_graph.c -o build-install/host_graph \
-        $(pkg-config --cflags --libs afterglow-framegraph) -lm || return 1
-    LD_LIBRARY_PATH=$(dirname "$pc") build-install/host_graph
-}
+installed() ( # a host outside the tree, built against the installed package
+    local root=$PWD/build-install libs
+    rm -rf "$root" && mkdir -p "$root"
+    meson install -C build --no-rebuild --destdir "$root" >/dev/null || return 1
+    PKG_CONFIG_PATH=$(dirname "$(find "$root" -name afterglow.pc)")
+    export PKG_CONFIG_PATH PKG_CONFIG_SYSROOT_DIR=$root
+    libs=$(dirname "$PKG_CONFIG_PATH")
+    cc -std=c11 -Wall -Werror tests/install/host.c -o "$root/host" \
+        $(pkg-config --cflags --libs afterglow) || return 1
+    LD_LIBRARY_PATH=$libs "$root/host"
+)
 
-# One file a call: of several, clang-tidy 14 takes the va_lists of all but the first for unset.
 tidy() {
     sources | grep '\.c$' | grep -v '^tests/fuzz' |
         xargs -P "$jobs" -n 1 clang-tidy -p build --quiet 2>/dev/null
@@ -101,13 +105,15 @@ if wanted sanitize && step "build with sanitizers" build_in build-sanitize -Dwer
         --timeout-multiplier 4
     unset ASAN_OPTIONS UBSAN_OPTIONS
 fi
+wanted clang && step "build with clang" clang_build
 wanted alone && step "the frame graph alone" alone && meson_tests build-alone alone
 wanted install && step "a host against the installed package" installed
 wanted format && step "clang-format" sh -c "git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format --dry-run --Werror"
 wanted tidy && step "clang-tidy" tidy
-wanted cppcheck && step "cppcheck" sh -c "cppcheck -j $jobs --quiet --std=c11 --language=c \
-    --enable=warning,portability --inline-suppr --error-exitcode=1 --suppressions-list=.ci/cppcheck.txt \
-    -I framegraph/include -I passes/include -I plugins/include -I . framegraph passes plugins samples"
+wanted cppcheck && step "cppcheck" sh -c "git ls-files 'framegraph/*.c' 'passes/*.c' 'plugins/*.c' 'samples/*.c' |
+    cppcheck -j $jobs --quiet --std=c11 --enable=warning,portability --inline-suppr --error-exitcode=1 \
+        --suppressions-list=.ci/cppcheck.txt --file-list=- -I framegraph/include -I passes/include \
+        -I plugins/include -I samples/afterglow -I samples/scenes -I ."
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

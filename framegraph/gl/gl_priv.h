@@ -56,7 +56,7 @@ typedef struct gl_timer_result {
 } gl_timer_result;
 
 typedef struct gl_timers {
-    bool on_cpu; // passes are timed by the clock, see gl_timer.c
+    bool on_cpu;                       // passes are timed by the clock, see gl_timer.c
     uint64_t frame, frame_ns, pass_ns; // then: the frame under way, its start, the pass's
     gl_timer_frame frames[GL_TIMER_FRAMES];
     gl_timer_result *results;

@@ -15,7 +15,7 @@ typedef enum renderer_layer {
     LAYER_FINAL = 0, // tone mapped, linear display values in [0, 1]
     LAYER_RADIANCE,  // W/(m^2 sr), all light
     LAYER_DIRECT,
-    LAYER_INDIRECT,  // albedo x E / pi + glossy
+    LAYER_INDIRECT, // albedo x E / pi + glossy
     LAYER_ALBEDO,
     LAYER_NORMAL,
     LAYER_POSITION, // world; 0 where nothing is
@@ -27,17 +27,17 @@ typedef struct renderer renderer;
 
 typedef struct renderer_desc {
     const fg_log *log;
-    fg_device *device; // a gl device, current; borrowed, as all below
-    ag_scene *scene;   // the renderer sets its time
-    const ag_camera *camera;   // copied; NULL: follows the scene's first, else a framing one
-    int camera_index;          // with camera NULL: of the scene's (it may move)
+    fg_device *device;       // a gl device, current; borrowed, as all below
+    ag_scene *scene;         // the renderer sets its time
+    const ag_camera *camera; // copied; NULL: follows the scene's first, else a framing one
+    int camera_index;        // with camera NULL: of the scene's (it may move)
     int width, height;
-    const gi_plugin *plugin;   // NULL: direct light alone
-    const gi_value *values;    // copied; NULL: defaults
-    float exposure;            // radiance of 1 after exposure is a middle-bright white; 0: 1
-    unsigned layers;           // bits 1 << layer that can be read back; 0: final alone
-    bool needs_all;            // every feature counts as present: nothing is left out
-    unsigned debug;            // fg_debug bits
+    const gi_plugin *plugin; // NULL: direct light alone
+    const gi_value *values;  // copied; NULL: defaults
+    float exposure;          // radiance of 1 after exposure is a middle-bright white; 0: 1
+    unsigned layers;         // bits 1 << layer that can be read back; 0: final alone
+    bool needs_all;          // every feature counts as present: nothing is left out
+    unsigned debug;          // fg_debug bits
     uint64_t seed;
     void (*inspect)(void *user, const fg_written *written);
     void *inspect_user;

@@ -152,6 +152,7 @@ static void pass_end(fg_device *dev, const fg_pass_begin *begin)
     (void) begin;
 }
 
+// NOLINTNEXTLINE(readability-non-const-parameter): the table has it so
 static bool timing(fg_device *dev, int timer, double *start_ms, double *ms, uint64_t *frame)
 {
     (void) dev;
@@ -349,6 +350,24 @@ static uint64_t name_of(const pass *p)
     return h;
 }
 
+// What a pass sees and makes of texels as they are and as they were last frame.
+static void expect_pass(pass *p, int frame, uint64_t (*now)[MIPS], uint64_t (*last)[MIPS])
+{
+    uint64_t h = name_of(p);
+    for (int k = 0; k < p->read_count; k++)
+        for (int m = p->reads[k].mip; m < p->reads[k].mip + p->reads[k].mips; m++)
+            h = mix(h, (p->reads[k].version ? now : last)[p->reads[k].res][m]);
+    p->expected[frame] = h;
+    for (int k = 0; k < p->write_count; k++) {
+        const io *out = &p->writes[k];
+        for (int m = out->mip; m < out->mip + out->mips; m++) {
+            uint64_t *texel = &now[out->res][m];
+            *texel = out->load == FG_LOAD_CLEAR ? (uint64_t) out->clear : *texel;
+            *texel = out->load == FG_LOAD_DISCARD ? h : mix(h, *texel);
+        }
+    }
+}
+
 // Runs all passes in the order in which they were thought of.
 static void expect(world *w)
 {
@@ -357,24 +376,9 @@ static void expect(world *w)
     for (int f = 0; f < FRAMES; f++) {
         memcpy(last, now, sizeof last);
         memset(now, 0, sizeof now);
-        for (int i = 0; i < w->pass_count; i++) {
-            pass *p = &w->pass[i];
-            if (p->left_out)
-                continue;
-            uint64_t h = name_of(p);
-            for (int k = 0; k < p->read_count; k++)
-                for (int m = p->reads[k].mip; m < p->reads[k].mip + p->reads[k].mips; m++)
-                    h = mix(h, (p->reads[k].version ? now : last)[p->reads[k].res][m]);
-            p->expected[f] = h;
-            for (int k = 0; k < p->write_count; k++) {
-                const io *out = &p->writes[k];
-                for (int m = out->mip; m < out->mip + out->mips; m++) {
-                    uint64_t *texel = &now[out->res][m];
-                    *texel = out->load == FG_LOAD_CLEAR ? (uint64_t) out->clear : *texel;
-                    *texel = out->load == FG_LOAD_DISCARD ? h : mix(h, *texel);
-                }
-            }
-        }
+        for (int i = 0; i < w->pass_count; i++)
+            if (!w->pass[i].left_out)
+                expect_pass(&w->pass[i], f, now, last);
     }
 }
 
@@ -394,6 +398,15 @@ static uint64_t *memory_of(const fg_run *run, world *w, const io *x)
     return w->sim.memory[w->sim.block[object]];
 }
 
+static void note(sim *s, uint32_t block, int mip, bool store, bool discard)
+{
+    s->touched[block][mip] = ++s->clock;
+    if (store)
+        s->stored[block][mip] = s->clock;
+    else if (discard)
+        s->stored[block][mip] = 0;
+}
+
 // A pass makes all its accesses at once, after the barriers before it.
 static void touch_all(const fg_run *run, const pass *p)
 {
@@ -409,15 +422,10 @@ static void touch_all(const fg_run *run, const pass *p)
         const bool store = write && (x->use == FG_USE_IMAGE || x->use == FG_USE_STORAGE);
         const uint32_t block = s->block[fg_run_object(run, handle_of(w, x))];
         for (int m = x->mip; m < x->mip + x->mips; m++) {
-            if (check) {
+            if (check)
                 touch(s, block, m, kinds[x->use], store);
-                continue;
-            }
-            s->touched[block][m] = ++s->clock;
-            if (store)
-                s->stored[block][m] = s->clock;
-            else if (write && x->load == FG_LOAD_DISCARD)
-                s->stored[block][m] = 0;
+            else
+                note(s, block, m, store, write && x->load == FG_LOAD_DISCARD);
         }
     }
 }

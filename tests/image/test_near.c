@@ -66,12 +66,12 @@ static void ratios(const char *clamp, double from, double to, double range[2])
     range[0] = INFINITY;
     range[1] = 0;
     for (int i = 0; i < W * H; i++) {
-        const float *p = c[1].texels + 4 * i;
+        const float *p = c[1].texels + 4 * (size_t) i;
         const double x = (double) p[0] + 0.013, y = (double) p[1] + 0.0701;
         if (p[3] < 0.5f || fabs((double) p[2] + 0.5) > 1e-4 || y < from * texel || y > to * texel)
             continue;
         // B = 1 W/m^2 of the floor; the plugin gives E / pi.
-        const double ratio = (double) c[0].texels[4 * i] * pi / truth(x, y);
+        const double ratio = (double) c[0].texels[4 * (size_t) i] * pi / truth(x, y);
         range[0] = fmin(range[0], ratio);
         range[1] = fmax(range[1], ratio);
     }

@@ -224,6 +224,7 @@ static void deep_nesting_is_refused_before_it_is_parsed(void **state)
     char *text = malloc((size_t) 2 * DEPTH + 100);
     assert_non_null(text);
     int n = sprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"extras\":");
+    assert_in_range(n, 1, 99);
     memset(text + n, '[', DEPTH);
     memset(text + n + DEPTH, ']', DEPTH);
     text[n + 2 * DEPTH] = '}';

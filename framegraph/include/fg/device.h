@@ -14,10 +14,10 @@ FG_BEGIN
 // Consumers that a memory barrier must serve; the gl device maps them to
 // glMemoryBarrier bits.
 typedef enum fg_barrier {
-    FG_BARRIER_SAMPLED = 1 << 0,  // TEXTURE_FETCH
-    FG_BARRIER_IMAGE = 1 << 1,    // SHADER_IMAGE_ACCESS
+    FG_BARRIER_SAMPLED = 1 << 0,    // TEXTURE_FETCH
+    FG_BARRIER_IMAGE = 1 << 1,      // SHADER_IMAGE_ACCESS
     FG_BARRIER_ATTACHMENT = 1 << 2, // FRAMEBUFFER
-    FG_BARRIER_STORAGE = 1 << 3,  // SHADER_STORAGE
+    FG_BARRIER_STORAGE = 1 << 3,    // SHADER_STORAGE
     FG_BARRIER_UNIFORM = 1 << 4,
     FG_BARRIER_VERTEX = 1 << 5,
     FG_BARRIER_INDEX = 1 << 6,
@@ -26,7 +26,7 @@ typedef enum fg_barrier {
 } fg_barrier;
 
 typedef struct fg_attachment {
-    uint32_t object; // 0: unused
+    uint32_t object;        // 0: unused
     int mip, layer, layers; // of a 3D texture, slices
     bool layered;           // all layers, faces or slices; else `layer` alone, of an array, a cube
                             // or a 3D texture
@@ -41,7 +41,7 @@ typedef struct fg_pass_begin {
     int color_count;
     fg_attachment depth;
     bool depth_read_only;
-    int width, height; // viewport; 0 in a pass without attachments
+    int width, height;        // viewport; 0 in a pass without attachments
     uint64_t framebuffer_key; // equal keys mean equal attachments: what a device caches by
 } fg_pass_begin;
 
@@ -54,7 +54,7 @@ typedef struct fg_clear {
     int layer, layers;      // array layers or cube faces; a 3D texture is cleared in its full depth
                             // and says layer 0, layers 1
     float value[4];         // rgba, or depth in [0]
-    bool poison; // NaN in float formats, 0xcd bytes elsewhere; `value` is ignored
+    bool poison;            // NaN in float formats, 0xcd bytes elsewhere; `value` is ignored
 } fg_clear;
 
 typedef struct fg_device_limits {
@@ -114,8 +114,8 @@ FG_API void fg_device_destroy(fg_device *dev);
 // so that a test can compare a whole frame with a text. Passes are timed (on the CPU) only
 // where it records.
 typedef struct fg_null_desc {
-    bool record;      // keep the lines; off for benchmarks
-    int fail_at;      // > 0: the n-th creating call fails with FG_ERR_MEMORY
+    bool record;             // keep the lines; off for benchmarks
+    int fail_at;             // > 0: the n-th creating call fails with FG_ERR_MEMORY
     fg_device_limits limits; // zeros mean the floor of OpenGL 4.5 (16384, 8 attachments, ...)
 } fg_null_desc;
 

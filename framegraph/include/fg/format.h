@@ -35,8 +35,8 @@ typedef enum fg_format {
 } fg_format;
 
 typedef struct fg_format_info {
-    const char *name;    // "RGBA16F"
-    int bytes;           // per texel
+    const char *name; // "RGBA16F"
+    int bytes;        // per texel
     int channels;
     int view_class;      // formats of one class may share memory through glTextureView; 0: none
     bool depth, stencil; // usable as depth attachment only (and sampled)

@@ -65,13 +65,13 @@ typedef enum fg_history {
 
 typedef struct fg_tex_desc {
     fg_format format;
-    int width, height;  // Texels. 0 means the frame's; then `scale_log2` halves it that often.
-    int scale_log2;     // Applies to frame-sized textures only, [0, 15]; sizes round up.
-    int depth;          // Slices of a 3D texture; 0 means it is not 3D.
-    int layers;         // Array layers; 0 means it is not an array. Cubes: a multiple of 6.
-    int mips;           // 0 means 1; FG_MIPS_ALL the full chain.
-    int samples;        // 0 means 1.
-    bool cube;          // 6 layers seen as a cube map, 12 as an array of two, ...
+    int width, height; // Texels. 0 means the frame's; then `scale_log2` halves it that often.
+    int scale_log2;    // Applies to frame-sized textures only, [0, 15]; sizes round up.
+    int depth;         // Slices of a 3D texture; 0 means it is not 3D.
+    int layers;        // Array layers; 0 means it is not an array. Cubes: a multiple of 6.
+    int mips;          // 0 means 1; FG_MIPS_ALL the full chain.
+    int samples;       // 0 means 1.
+    bool cube;         // 6 layers seen as a cube map, 12 as an array of two, ...
     fg_history history;
 } fg_tex_desc;
 
@@ -173,8 +173,8 @@ typedef struct fg_pass_desc {
     fg_io writes[FG_MAX_WRITES];
     fg_effect effect;
     uint64_t needs; // Feature bits; where the frame lacks one, the pass is left out. What it was to
-                    // change is then read as it was before; what only it makes, optionally or not at
-                    // all.
+                    // change is then read as it was before; what only it makes, optionally or not
+                    // at all.
     fg_status (*run)(const fg_run *run, void *user); // Required. A status other than FG_OK ends
                                                      // the frame and comes out of fg_graph_run().
     void *user;                                      // Borrowed while the graph runs.
@@ -213,11 +213,11 @@ typedef struct fg_written {
 } fg_written;
 
 typedef struct fg_graph_desc {
-    fg_device *device;       // Required. Borrowed; must outlive the graph.
-    const fg_log *log;       // Optional. Borrowed; must outlive the graph.
-    fg_allocator allocator;  // Zero means malloc.
-    unsigned debug;          // fg_debug bits
-    uint64_t seed;           // FG_DEBUG_RANDOM_ORDER
+    fg_device *device;      // Required. Borrowed; must outlive the graph.
+    const fg_log *log;      // Optional. Borrowed; must outlive the graph.
+    fg_allocator allocator; // Zero means malloc.
+    unsigned debug;         // fg_debug bits
+    uint64_t seed;          // FG_DEBUG_RANDOM_ORDER
     void (*inspect)(void *user, const fg_written *written);
     void *inspect_user;
 } fg_graph_desc;
@@ -229,8 +229,8 @@ FG_API fg_graph *fg_graph_create(const fg_graph_desc *desc);
 FG_API void fg_graph_destroy(fg_graph *g);
 
 typedef struct fg_frame_desc {
-    int width, height; // Texels of frame-sized textures. > 0 if there are any.
-    uint64_t features; // What `needs` is held against. 0: nothing special.
+    int width, height;                // Texels of frame-sized textures. > 0 if there are any.
+    uint64_t features;                // What `needs` is held against. 0: nothing special.
     const char *const *feature_names; // Names of the bits, for reasons; optional, borrowed.
     int feature_count;
 } fg_frame_desc;
@@ -300,10 +300,10 @@ FG_API const char *fg_graph_left_out(const fg_graph *g, int i, const char **why)
 
 typedef struct fg_timing {
     const char *pass;
-    double gpu_ms;     // of a frame some frames ago; negative while none has come back
-    double cpu_ms;     // last frame: the callback, and what the device does around it; 0 on a
-                       // device that times nothing
-    uint64_t frame;    // the frame that gpu_ms is of
+    double gpu_ms;       // of a frame some frames ago; negative while none has come back
+    double cpu_ms;       // last frame: the callback, and what the device does around it; 0 on a
+                         // device that times nothing
+    uint64_t frame;      // the frame that gpu_ms is of
     double gpu_start_ms; // since the first pass of that frame began
     double cpu_start_ms; // since fg_graph_run() was entered
 } fg_timing;

@@ -20,7 +20,7 @@ typedef struct ag_shadow_pass {
     const ag_gpu_scene *gpu;
     ag_scene_res scene;
     fg_res maps;
-    int size;    // texels
+    int size; // texels
     ag_face_user faces[AG_MAX_FACES];
 } ag_shadow_pass;
 

@@ -2,8 +2,8 @@
 // A virtual point light as the VPL buffers hold it; read by C and GLSL (std430, 48 bytes).
 //
 // It stands for a patch of a surface, a parallelogram about its position. The patch's edges lie in
-// the plane of the normal; in the frame of vpl_frame() and over sqrt(A_j) they are two pairs of half
-// floats, packed into the w of normal and flux, below 1e3 so that the bits are never a NaN's.
+// the plane of the normal; in the frame of vpl_frame() and over sqrt(A_j) they are two pairs of
+// half floats, packed into the w of normal and flux, below 1e3 so that the bits are never a NaN's.
 #ifndef PASS_VPL_SHARED_H
 #define PASS_VPL_SHARED_H
 
