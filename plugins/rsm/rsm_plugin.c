@@ -9,7 +9,7 @@
 static const char *const pattern_names[] = { "all", "regular", "stratified", NULL };
 static const char *const clamp_names[] = { "footprint", "disc", "none", "constant", NULL };
 static const char *const solid_angle_names[] = { "exact", "equal", NULL };
-static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, 16384, NAN };
+static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, 16384, (double) NAN };
 
 enum { RSM_SIZE, PATTERN, VPLS, CLAMP, CLAMP_D2, SOLID_ANGLE, SEED, PARAM_COUNT };
 

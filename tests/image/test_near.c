@@ -63,7 +63,7 @@ static void ratios(const char *clamp, double from, double to, double range[2])
     ag_scene *scene = corner_scene();
     capture c[] = { { .resource = "rsm.indirect" }, { .resource = "gbuffer.position" }, { 0 } };
     image img = render_captured(scene, W, H, LAYER_INDIRECT, settings, c);
-    range[0] = INFINITY;
+    range[0] = (double) INFINITY;
     range[1] = 0;
     for (int i = 0; i < W * H; i++) {
         const float *p = c[1].texels + 4 * (size_t) i;
