@@ -102,7 +102,8 @@ static bool count_versions(fg_graph *g)
         fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory for %u versions", total);
         return false;
     }
-    memset(p->version, 0xff, total * sizeof *p->version); // NONE
+    if (total)
+        memset(p->version, 0xff, total * sizeof *p->version); // NONE
     g->missing = total - d->import_count;
     return true;
 }
