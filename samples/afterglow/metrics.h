@@ -8,7 +8,8 @@ FG_BEGIN
 
 // Error of `a` against the reference `b`, over all channels of all pixels, linear, before any
 // tone curve. Non-finite pixels of either are counted and then left out. Sums in double.
-// A quotient by zero is 0 where nothing is off and infinite elsewhere.
+// A quotient by zero is 0 where nothing is off and infinite elsewhere; where no pixel is left all
+// is NaN but the count.
 typedef struct metrics {
     double rmse;
     double rmse_rms;     // over the reference's RMS: what we call relative RMSE
