@@ -13,6 +13,10 @@ static int check(cli *c, const options *o)
         return cli_fail(c, EXIT_USAGE, "--budget: is '%s', must be quick or full", o->budget);
     if (o->merge && !o->operand_count)
         return cli_fail(c, EXIT_USAGE, "--merge: the folders to join are missing");
+    for (int i = 0; i < o->operand_count && !o->merge; ++i)
+        for (int k = 0; k < i; ++k)
+            if (!strcmp(o->operands[i], o->operands[k]))
+                return cli_fail(c, EXIT_USAGE, "%s: is given twice", o->operands[i]);
     int code = host_check_folder(c, o);
     for (int i = 0; i < FG_COUNT(folders) && code == EXIT_DONE; ++i) {
         snprintf(path, sizeof path, "%s/%s", o->output, folders[i]);

@@ -71,7 +71,10 @@ FG_NODISCARD fg_status report_html(const fg_log *log, const char *folder, const 
 // Reading the document: a missing member is "" or NAN.
 const char *json_text(const cJSON *object, const char *name);
 double json_number(const cJSON *object, const char *name);
-// Relative file names: "cornell" and "rsm" with odd letters replaced.
+// Adds a note for the reader of the report, once, and warns.
+void report_note(cJSON *doc, const char *fmt, ...) FG_PRINTF(2, 3);
+// Relative file names: "cornell" and "rsm" as they are; what loses its folder or has odd letters
+// replaced carries a hash, so that two names stay two.
 void report_file_name(char *out, size_t size, const char *text);
 // Whether no other record of the scene is both faster and nearer to truth `truth`.
 bool report_on_front(const cJSON *doc, const cJSON *record, int truth);

@@ -198,19 +198,32 @@ static cJSON *empty_copy(const cJSON *first)
     return doc;
 }
 
+// How many shards there are of the run that a report is part of; 0: it is a whole.
+static int shards_of(const cJSON *doc)
+{
+    const cJSON *count = cJSON_GetArrayItem(cJSON_GetObjectItem(doc, "shard"), 1);
+    return cJSON_IsNumber(count) ? count->valueint : 0;
+}
+
 int report_merge(cli *c, const options *o, cJSON **doc)
 {
-    int code = EXIT_DONE;
+    int code = EXIT_DONE, parts = 0, shards = 0;
     *doc = NULL;
     for (int i = 0; i < o->operand_count && code == EXIT_DONE; ++i) {
         cJSON *part;
         code = read_report(c, o->operands[i], &part);
         if (code == EXIT_DONE && !*doc)
             *doc = empty_copy(part);
+        if (code == EXIT_DONE && shards_of(part)) {
+            shards = shards_of(part);
+            ++parts;
+        }
         if (code == EXIT_DONE)
             code = join(c, o, o->operands[i], *doc, part);
         cJSON_Delete(part);
     }
+    if (code == EXIT_DONE && parts < shards)
+        report_note(*doc, "joined of %d of %d shards: settings are missing", parts, shards);
     if (code == EXIT_DONE)
         code = sort_records(c, cJSON_GetObjectItem(*doc, "records"));
     return code;

@@ -40,19 +40,10 @@ static int run_program(const char *const *argv)
     return WIFEXITED(state) && WEXITSTATUS(state) == 0 ? 0 : -1;
 }
 
-static void add_note(cJSON *doc, const char *program, int result, const char *lacking)
+static void note_program(cJSON *doc, const char *program, int result, const char *lacking)
 {
-    char note[160];
-    snprintf(note, sizeof note, "%s %s: %s", program,
-             result == ENOENT ? "is not installed" : "failed", lacking);
-    const cJSON *other;
-    cJSON_ArrayForEach(other, cJSON_GetObjectItem(doc, "notes"))
-    {
-        if (cJSON_IsString(other) && !strcmp(other->valuestring, note))
-            return;
-    }
-    cJSON_AddItemToArray(cJSON_GetObjectItem(doc, "notes"), cJSON_CreateString(note));
-    cli_warn("report: %s", note);
+    report_note(doc, "%s %s: %s", program, result == ENOENT ? "is not installed" : "failed",
+                lacking);
 }
 
 // ---- gnuplot scripts -------------------------------------------------------------------------
@@ -66,6 +57,18 @@ static void quoted(FILE *f, const char *text)
                                                                                             : *text,
               f);
     fputc('"', f);
+}
+
+// A file's name in a script, whatever its letters: in single quotes only they are special.
+static void quoted_path(FILE *f, const char *path)
+{
+    fputc('\'', f);
+    for (; *path; ++path) {
+        if (*path == '\'')
+            fputc('\'', f);
+        fputc(*path, f);
+    }
+    fputc('\'', f);
 }
 
 static double frame_median(const cJSON *record)
@@ -180,7 +183,7 @@ static void write_head(FILE *f, const char *svg, int height)
             "set terminal svg size 860,%d font 'Helvetica,13' noenhanced background '#ffffff'\n"
             "set output ",
             height);
-    quoted(f, svg);
+    quoted_path(f, svg);
     fprintf(f, "\nset border lc rgb '#444444'\nset grid lc rgb '#dddddd' lw 1\n"
                "set tics textcolor rgb '#222222'\n");
 }
@@ -320,6 +323,19 @@ static fg_status write_bars(FILE *f, const cJSON *doc, const cJSON *scene, const
 
 // ---- files -----------------------------------------------------------------------------------
 
+// Whether any record of the scene has a time and an error that logarithmic axes can show.
+static bool plottable(const cJSON *doc, const char *scene, int truth)
+{
+    const cJSON *record;
+    cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
+    {
+        if (of_scene(record, scene) && frame_median(record) > 0 &&
+            report_error_of(record, truth) > 0)
+            return true;
+    }
+    return false;
+}
+
 // Writes the script by `truth` (-1: bars) and runs gnuplot on it; the SVG is what tells success.
 static fg_status plot(const fg_log *log, const char *folder, cJSON *doc, const cJSON *scene,
                       int truth)
@@ -331,6 +347,11 @@ static fg_status plot(const fg_log *log, const char *folder, cJSON *doc, const c
     snprintf(script, sizeof script, "%s/plots/%s_%s.gp", folder, stem, what);
     snprintf(svg, sizeof svg, "%s/plots/%s_%s.svg", folder, stem, what);
     unlink(svg); // one from an earlier run must not stand for this
+    if (truth >= 0 && !plottable(doc, json_text(scene, "name"), truth)) {
+        report_note(doc, "%.200s: no relative error against %s to plot", json_text(scene, "name"),
+                    what);
+        return FG_OK;
+    }
     fg_status status = file_begin(log, script, &out);
     if (status != FG_OK)
         return status;
@@ -343,7 +364,7 @@ static fg_status plot(const fg_log *log, const char *folder, cJSON *doc, const c
     const int result = run_program(argv);
     if (result) {
         unlink(svg);
-        add_note(doc, "gnuplot", result, "no plots");
+        note_program(doc, "gnuplot", result, "no plots");
     }
     return FG_OK;
 }
@@ -361,7 +382,7 @@ static void draw_graphs(const char *folder, cJSON *doc, cJSON *scene)
         const int result = run_program(argv);
         if (result) {
             unlink(svg);
-            add_note(doc, "dot", result, "no pictures of graphs");
+            note_program(doc, "dot", result, "no pictures of graphs");
         }
     }
 }

@@ -5,6 +5,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,11 +23,35 @@ double json_number(const cJSON *object, const char *name)
 
 void report_file_name(char *out, size_t size, const char *text)
 {
+    enum { HASH = 9 }; // letters of "-%08x"
     const char *slash = strrchr(text, '/');
+    uint32_t hash = 2166136261; // FNV-1a
     size_t n = 0;
-    for (const char *at = slash && slash[1] ? slash + 1 : text; *at && n + 1 < size; ++at)
+    for (const char *at = slash && slash[1] ? slash + 1 : text; *at && n + HASH + 1 < size; ++at)
         out[n++] = isalnum((unsigned char) *at) || *at == '-' ? *at : '_';
     out[n] = 0;
+    for (const char *at = text; *at; ++at)
+        hash = (hash ^ (unsigned char) *at) * 16777619;
+    if (strcmp(out, text) != 0)
+        snprintf(out + n, size - n, "-%08x", (unsigned) hash);
+}
+
+void report_note(cJSON *doc, const char *fmt, ...)
+{
+    cJSON *notes = cJSON_GetObjectItem(doc, "notes");
+    const cJSON *other;
+    char text[320];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(text, sizeof text, fmt, args);
+    va_end(args);
+    cJSON_ArrayForEach(other, notes)
+    {
+        if (cJSON_IsString(other) && !strcmp(other->valuestring, text))
+            return;
+    }
+    cJSON_AddItemToArray(notes, cJSON_CreateString(text));
+    cli_warn("report: %s", text);
 }
 
 double report_error_of(const cJSON *record, int truth)

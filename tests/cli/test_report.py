@@ -1,15 +1,29 @@
 # SPDX-License-Identifier: MIT
 """The report: records, shards that join to the whole, a page that a browser opens without a complaint."""
+import base64
 import csv
 import html.parser
 import json
 import os
 import shutil
+import struct
 import subprocess
 
 from harness import fails, main, succeeds
 
 SMALL = ['--size', '32x32', '--spp', '8']
+
+
+def write_triangle(path):
+    corners = base64.b64encode(struct.pack('<9f', -1, -1, 0, 1, -1, 0, 0, 1, 0)).decode()
+    with open(path, 'w') as f:
+        json.dump({
+            'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
+            'meshes': [{'primitives': [{'attributes': {'POSITION': 0}}]}],
+            'buffers': [{'uri': 'data:application/octet-stream;base64,' + corners, 'byteLength': 36}],
+            'bufferViews': [{'buffer': 0, 'byteLength': 36}],
+            'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3',
+                           'min': [-1, -1, 0], 'max': [1, 1, 0]}]}, f)
 
 
 def load(folder):
@@ -96,6 +110,31 @@ def broken_reports_are_refused(folder):
     assert not os.path.exists(folder + '/out/report.json')
 
 
+def a_missing_shard_is_said(folder):
+    common = ['report', 'cornell', '--gi', 'none', '--size', '8x8', '--spp', 1]
+    succeeds(*common, '--shard', '1/2', '-o', folder + '/part')
+    run = succeeds('report', '--merge', folder + '/part', '-o', folder + '/joined')
+    assert any('1 of 2 shards' in line for line in run.lines('warning')), run
+    assert any('1 of 2 shards' in note for note in load(folder + '/joined')['notes'])
+
+
+def scenes_of_one_name_keep_their_pictures(folder):
+    # One triangle alone receives no indirect light: there is no relative error to plot, either.
+    for place in ['a', 'b']:
+        os.mkdir(os.path.join(folder, place))
+        write_triangle(os.path.join(folder, place, 'scene.gltf'))
+    scenes = [os.path.join(folder, place, 'scene.gltf') for place in ['a', 'b']]
+    out = os.path.join(folder, 'the "report" it\'s')
+    run = succeeds('report', *scenes, '--gi', 'none', '--size', '8x8', '--spp', 1, '-o', out)
+    assert not any('gnuplot' in line for line in run.lines('warning')), run
+    assert any('no relative error' in line for line in run.lines('warning')), run
+    names = [t['image'] for s in load(out)['scenes'] for t in s['references']]
+    names += [r['images']['result'] for r in load(out)['records']]
+    assert len(set(names)) == 6, names
+    assert len([name for name in os.listdir(out + '/plots') if name.endswith('_passes.svg')]) == 2
+    fails(2, ['twice'], 'report', 'cornell', 'cornell', '-o', out)
+
+
 def missing_plotters_are_said_and_no_failure(folder):
     run = succeeds('report', 'cornell', '--gi', 'none', *SMALL, '-o', folder, env={'PATH': folder})
     assert any('gnuplot is not installed' in line for line in run.lines('warning')), run
@@ -147,5 +186,5 @@ def the_page_opens_in_a_browser(folder):
 
 if __name__ == '__main__':
     main([records_have_the_shape_that_is_promised, shards_join_to_the_whole, noise_of_the_truth_is_taken_out,
-          a_set_parameter_is_not_swept,
+          a_set_parameter_is_not_swept, a_missing_shard_is_said, scenes_of_one_name_keep_their_pictures,
           broken_reports_are_refused, missing_plotters_are_said_and_no_failure, the_page_opens_in_a_browser])
