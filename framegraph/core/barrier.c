@@ -204,7 +204,7 @@ static inline bool needs_barrier(const barrier_state *b, const touch *t, uint32_
 {
     const uint32_t last = b->at[t->bit];
     const sub_state *row = t->first;
-    b->g->work += t->rows * t->columns;
+    b->g->work += (uint64_t) t->rows * t->columns;
     for (uint32_t m = 0; m < t->rows; m++, row += t->stride)
         for (uint32_t l = 0; l < t->columns; l++)
             if (row[l].write > last ||
@@ -243,13 +243,16 @@ static inline bool touch_of_io(const barrier_state *b, uint32_t k, touch *t)
     if (!slot->incoherent)
         return false;
     const res_rec *r = &b->d->res[io->res];
-    const bool flat = r->depth > 0;
-    t->stride = flat ? 1 : sub_layers(r);
-    t->first = &b->p->sub[slot->subs + (size_t) io->mip * t->stride + (flat ? 0 : io->layer)];
-    t->rows = io->mips;
-    t->columns = flat ? 1 : io->layers;
+    t->first = &b->p->sub[slot->subs];
     t->bit = use_bit[io->use];
     t->incoherent = io_incoherent(io);
+    t->stride = t->rows = t->columns = 1;
+    if (r->mips == 1 && r->layers <= 1)
+        return true;
+    t->stride = sub_layers(r);
+    t->first += (size_t) io->mip * t->stride + (r->depth ? 0 : io->layer);
+    t->rows = io->mips;
+    t->columns = r->depth ? 1 : io->layers;
     return true;
 }
 
@@ -293,34 +296,39 @@ static void barriers_of_clears(barrier_state *b, step_rec *s, uint32_t now)
     }
 }
 
+// A first write that discards: cleared when the pass is off, so new either way.
+static void forget_discarded(barrier_state *b, const step_rec *s)
+{
+    touch t;
+    for (uint32_t k = s->clear; k < s[1].clear; k++)
+        if (b->p->clear[k].flags == CLEAR_IF_OFF && touch_of_clear(b, &b->p->clear[k], &t))
+            forget(&t);
+}
+
 // Four positions a step: barrier, clears, barrier, pass.
 static void barriers_of_step(barrier_state *b, uint32_t step, uint32_t now)
 {
     step_rec *s = &b->p->step[step];
     const pass_rec *rec = &b->d->pass[s->pass];
-    const uint32_t end = rec->io + rec->reads + rec->writes;
-    touch touches[FG_MAX_READS + FG_MAX_WRITES], t;
+    const uint32_t end = io_end(rec), writes = rec->io + rec->reads;
+    touch touches[FG_MAX_READS + FG_MAX_WRITES];
     unsigned count = 0, bits = 0;
     bool draws = false; // writes that OpenGL orders
     if (s->clears)
         barriers_of_clears(b, s, now);
     for (uint32_t k = rec->io; k < end; k++) {
-        if (!touch_of_io(b, k, &touches[count]))
+        touch *t = &touches[count];
+        if (!touch_of_io(b, k, t))
             continue;
-        draws |= (b->d->io[k].flags & IO_WRITE) && !touches[count].incoherent;
+        draws |= k >= writes && !t->incoherent;
+        bits |= (unsigned) needs_barrier(b, t, now + 3) << t->bit;
         count++;
     }
-    if (!count)
-        return;
-    for (unsigned i = 0; i < count; i++)
-        if (needs_barrier(b, &touches[i], now + 3))
-            bits |= 1u << touches[i].bit;
-    issue(b, bits, now + 2);
+    if (bits)
+        issue(b, bits, now + 2);
     s->bits = (uint16_t) bits;
-    // A first write that discards: cleared when the pass is off, so new either way.
-    for (uint32_t k = s->clear; draws && k < s[1].clear; k++)
-        if (b->p->clear[k].flags == CLEAR_IF_OFF && touch_of_clear(b, &b->p->clear[k], &t))
-            forget(&t);
+    if (draws)
+        forget_discarded(b, s);
     for (unsigned i = 0; i < count; i++)
         note(&touches[i], now + 3);
 }

@@ -295,8 +295,11 @@ fg_status fg_cull(fg_graph *g)
     const decl *d = g->open;
     cull c = { .g = g, .d = d, .p = g->next };
     for (uint32_t i = 0; i < d->pass_count; i++) {
+        const pass_rec *pass = &d->pass[i];
         c.p->step_of[i] = NONE;
-        c.internals |= d->pass[i].effect == FG_EFFECT_INTERNAL;
+        c.internals |= pass->effect == FG_EFFECT_INTERNAL;
+        if (pass->effect == FG_EFFECT_EXTERNAL || (d->import_count && writes_import(&c, pass)))
+            keep(&c, i);
     }
     if (d->io_count)
         memset(c.p->absent, 0, d->io_count);
@@ -306,9 +309,6 @@ fg_status fg_cull(fg_graph *g)
         fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory while culling");
         return FG_ERR_MEMORY;
     }
-    for (uint32_t i = 0; i < d->pass_count; i++)
-        if (d->pass[i].effect == FG_EFFECT_EXTERNAL || writes_import(&c, &d->pass[i]))
-            keep(&c, i);
     for (uint32_t i = 0; i < d->export_count; i++) {
         const res_rec *r = &d->res[d->exports[i].res];
         const io_rec whole = { .res = d->exports[i].res,
