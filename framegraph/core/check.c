@@ -250,6 +250,7 @@ fg_status fg_check(fg_graph *g, bool *in_order)
     for (uint32_t i = 0; i < d->pass_count; i++) {
         const pass_rec *pass = &d->pass[i];
         const io_rec *io = &d->io[pass->io];
+        g->next->order[i] = i;
         for (int k = 0; k < pass->reads; k++)
             check_read(g, i, &io[k], in_order);
         for (int k = pass->reads; k < pass->reads + pass->writes; k++) {

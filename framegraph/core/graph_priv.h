@@ -390,7 +390,8 @@ group_key fg_group_of(const res_rec *r);
 const char *fg_range_text(char *buf, size_t size, const res_rec *r, const io_rec *io);
 const char *fg_use_name(unsigned use);
 
-// The stages of a compile; each logs what it refuses.
+// The stages of a compile; each logs what it refuses. fg_check() leaves the declared order in
+// plan.order and says whether it is legal.
 fg_status fg_check(fg_graph *g, bool *in_order);
 void fg_check_uses(fg_graph *g, uint32_t pass);
 fg_status fg_order(fg_graph *g, bool in_order);

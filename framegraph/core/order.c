@@ -247,11 +247,8 @@ static void random_order(order_state *o)
 fg_status fg_order(fg_graph *g, bool in_order)
 {
     const bool random = g->debug & FG_DEBUG_RANDOM_ORDER;
-    if (in_order && !random) {
-        for (uint32_t i = 0; i < g->open->pass_count; i++)
-            g->next->order[i] = i;
-        return FG_OK;
-    }
+    if (in_order && !random)
+        return FG_OK; // as fg_check() laid it out
     order_state o = { .g = g };
     if (!collect_edges(&o))
         fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory while ordering %u passes",
