@@ -163,6 +163,7 @@ void host_take_scene(host *h, ag_scene *scene, const char *name)
     ag_scene_destroy(h->scene);
     h->scene = scene;
     h->scene_name = name;
+    h->dark_said = false;
 }
 
 int host_open_scene(host *h, const char *name)
@@ -376,11 +377,24 @@ fg_status host_switch(host *h, renderer *r, const setting *s)
     return FG_OK;
 }
 
+// Frames are lit by punctual lights; what surfaces send is for plugins that ask for it.
+static void warn_dark(host *h, const gi_plugin *plugin)
+{
+    const uint64_t features = h->scene->features;
+    if (h->dark_said || !(features & AG_FEATURE_EMISSIVE) || features & AG_FEATURE_LIGHT ||
+        (plugin && plugin->needs & AG_FEATURE_AREA_LIGHT))
+        return;
+    cli_warn("%s: nothing shines but surfaces, which light no others here; --light adds a light",
+             h->scene_name);
+    h->dark_said = true;
+}
+
 fg_status host_renderer(host *h, const renderer_desc *desc, renderer **out)
 {
     renderer_desc bare = *desc;
     bare.plugin = NULL;
     bare.values = NULL;
+    warn_dark(h, desc->plugin);
     const fg_status status = renderer_create(&bare, out);
     if (status != FG_OK || !desc->plugin)
         return status;

@@ -30,6 +30,7 @@ typedef struct host {
     int camera_index;
     fg_gl_context *context;
     fg_device *device;
+    bool dark_said; // the warning that surfaces alone shine, once a scene
     bool as_it_is;  // host_open_scene() adds no default light
     bool fell_back; // the plugin failed in create: direct light goes on alone
     bool refused;   // a module that was asked for was refused: nobody knows its parameters

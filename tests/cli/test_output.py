@@ -3,6 +3,7 @@
 import json
 import os
 import struct
+import subprocess
 
 from harness import main, succeeds
 
@@ -129,6 +130,14 @@ def a_sequence_takes_turns(folder):
         assert open(path, 'rb').read() == frames[frame], plugin
 
 
+def a_pipe_gets_the_whole_of_it(folder):
+    pipe = folder + '/pipe'
+    os.mkfifo(pipe)
+    with subprocess.Popen(['cat', pipe], stdout=subprocess.PIPE) as reader:
+        succeeds('render', 'cornell', '--size', '8x8', '-o', folder + '/a.png', '--stats', pipe)
+        assert json.loads(reader.communicate(timeout=60)[0])['scene'] == 'cornell'
+
+
 def frame_n_is_the_nth_of_a_sequence(folder):
     out, path = folder + '/frames', folder + '/one.pfm'
     common = ['--size', '24x16', '--layer', 'direct']
@@ -200,6 +209,13 @@ def a_scene_in_the_dark_gets_a_light_and_a_warning(folder):
     run = succeeds('render', path, '--size', '16x16', '--layer', 'direct', '-o', out)
     assert any('has no light' in line for line in run.lines('warning')), run
     assert max(read_pfm(out)[2]) > 0.01
+    with open(path) as f:
+        glowing = json.load(f)
+    glowing['materials'][0]['emissiveFactor'] = [1, 1, 1]
+    with open(folder + '/glow.gltf', 'w') as f:
+        json.dump(glowing, f)
+    run = succeeds('render', folder + '/glow.gltf', '--size', '16x16', '-o', folder + '/c.png')
+    assert len([line for line in run.lines('warning') if 'nothing shines but surfaces' in line]) == 1, run
     run = succeeds('render', path, '--size', '16x16', '--light', 'point:0,0,2:9,9,9', '-o', folder + '/b.png')
     assert not any('has no light' in line for line in run.lines('warning')), run
 
@@ -207,7 +223,7 @@ def a_scene_in_the_dark_gets_a_light_and_a_warning(folder):
 if __name__ == '__main__':
     main([compare_gives_the_figures_that_were_worked_out, pixels_that_are_not_finite_are_counted,
           the_same_frame_is_the_same_bits, debug_switches_change_nothing, odd_sizes_are_rendered,
-          every_layer_can_be_had, stats_have_the_shape_that_is_promised, a_sequence_takes_turns,
+          every_layer_can_be_had, stats_have_the_shape_that_is_promised, a_sequence_takes_turns, a_pipe_gets_the_whole_of_it,
           frame_n_is_the_nth_of_a_sequence, the_reference_depends_on_the_seed_alone,
           direct_light_is_that_of_the_reference, the_graph_is_printed_in_every_format,
           plugins_scenes_and_info_are_json, a_scene_in_the_dark_gets_a_light_and_a_warning])
