@@ -474,11 +474,10 @@ static bool json_is_sound(const char *s)
                 return false;
         } else if (*s == '"') {
             text = !text;
-        } else if (text && (unsigned char) *s < 0x20) {
-            return false;
         } else if (!text && (*s == '{' || *s == '[')) {
             stack[depth++] = *s == '{' ? '}' : ']';
-        } else if (!text && (*s == '}' || *s == ']') && (!depth || stack[--depth] != *s)) {
+        } else if (text ? (unsigned char) *s < 0x20
+                        : (*s == '}' || *s == ']') && (!depth || stack[--depth] != *s)) {
             return false;
         }
     }
