@@ -27,6 +27,7 @@ static void dispatch_wide(const fg_run *run, const ag_vpl_pass *pass)
 {
     const uint32_t zero = 0;
     const int row = pass->capacity < MAX_GROUPS ? pass->capacity : MAX_GROUPS;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); // shaders of the last frame wrote there
     glClearNamedBufferData(fg_run_object(run, pass->groups), GL_R32UI, GL_RED_INTEGER,
                            GL_UNSIGNED_INT, &zero);
     fg_gl_dispatch_2d(row, (pass->capacity + row - 1) / row, 1, 1);

@@ -159,6 +159,7 @@ static void print_mean(uint32_t texture)
 {
     static float rgba[WIDTH * HEIGHT][4];
     double sum[3] = { 0 };
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT); // a compute pass wrote it
     glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, sizeof rgba, rgba);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         for (int c = 0; c < 3; c++)

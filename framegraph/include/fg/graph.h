@@ -107,7 +107,8 @@ FG_API fg_res fg_import_buffer(fg_graph *g, const char *name, const fg_buf_desc 
 FG_API fg_res fg_last_frame(fg_graph *g, fg_res res);
 
 // Keeps a version beyond the frame: it is not culled, shares no memory, and
-// fg_graph_exported() gives its object after fg_graph_run().
+// fg_graph_exported() gives its object after fg_graph_run(). How the host will use it the graph
+// does not know: what a shader wrote as image or storage needs the host's glMemoryBarrier() first.
 FG_API void fg_export(fg_graph *g, fg_res res);
 
 // ---- passes ----------------------------------------------------------------
