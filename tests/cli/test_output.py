@@ -223,7 +223,7 @@ def a_scene_in_the_dark_gets_a_light_and_a_warning(folder):
 if __name__ == '__main__':
     main([compare_gives_the_figures_that_were_worked_out, pixels_that_are_not_finite_are_counted,
           the_same_frame_is_the_same_bits, debug_switches_change_nothing, odd_sizes_are_rendered,
-          every_layer_can_be_had, stats_have_the_shape_that_is_promised, a_sequence_takes_turns, a_pipe_gets_the_whole_of_it,
-          frame_n_is_the_nth_of_a_sequence, the_reference_depends_on_the_seed_alone,
+          every_layer_can_be_had, stats_have_the_shape_that_is_promised, a_sequence_takes_turns,
+          a_pipe_gets_the_whole_of_it, frame_n_is_the_nth_of_a_sequence, the_reference_depends_on_the_seed_alone,
           direct_light_is_that_of_the_reference, the_graph_is_printed_in_every_format,
           plugins_scenes_and_info_are_json, a_scene_in_the_dark_gets_a_light_and_a_warning])
