@@ -339,6 +339,16 @@ static int measure_scenes(measure *m, const job_list *jobs)
     return code;
 }
 
+// Before the truth is traced, which takes long.
+static int check_size(const measure *m)
+{
+    const int most = m->h.device->ops->limits(m->h.device)->max_texture_size;
+    if (m->width <= most && m->height <= most)
+        return EXIT_DONE;
+    return cli_fail(m->h.c, EXIT_FAILED, "--size: is %dx%d, the device takes at most %d", m->width,
+                    m->height, most);
+}
+
 int report_measure(cli *c, const options *o, cJSON **doc)
 {
     const bool full = o->budget && !strcmp(o->budget, "full");
@@ -356,6 +366,8 @@ int report_measure(cli *c, const options *o, cJSON **doc)
         code = cli_status(c, jobs_build(o, plugins, count, full, &jobs));
     if (code == EXIT_DONE)
         code = host_open_device(&m.h);
+    if (code == EXIT_DONE)
+        code = check_size(&m);
     if (code == EXIT_DONE) {
         m.doc = new_document(&m);
         code = measure_scenes(&m, &jobs);
