@@ -122,7 +122,7 @@ static bool fits_device(const ag_vpl_pass *pass, fg_graph *g, const char *prefix
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     const int64_t fit = most / (int64_t) sizeof(ag_vpl);
-    const int64_t limit = fit < MAX_GROUPS * GROUP ? fit : MAX_GROUPS * GROUP;
+    const int64_t flat = (int64_t) MAX_GROUPS * GROUP, limit = fit < flat ? fit : flat;
     if (vpls <= limit)
         return true;
     fg_fail(g, "%s: %lld VPLs in %.0f MiB, the device takes %lld", prefix, (long long) vpls,
