@@ -8,7 +8,7 @@ FG_BEGIN
 
 // What keeps a VPL's light finite near it.
 typedef enum ag_clamp {
-    AG_CLAMP_FOOTPRINT = 0, // DISC from 4 sqrt(A_j) on; nearer the exact form factor of the VPL's
+    AG_CLAMP_FOOTPRINT = 0, // DISC from 2 sqrt(A_j) on; nearer the exact form factor of the VPL's
                             // patch, so that corners stay lit up to the edge
     AG_CLAMP_DISC,          // pi d^2 + A_j: the VPL is a disc of its own area. No length is tuned.
     AG_CLAMP_NONE,          // pi d^2
