@@ -75,6 +75,7 @@ typedef struct rsm {
     ag_vpl_pass vpl;
     ag_gather_pass gather;
     ag_readback count;
+    int samples; // pixels that gather
 } rsm;
 
 static fg_status rsm_set(void *self, const gi_value *values)
@@ -142,6 +143,7 @@ static void rsm_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
     ag_gather_declare(&r->gather, g, &in->scene, &in->gbuffer, &r->vpl, &gather);
     ag_readback_declare(&r->count, g, "rsm.count_vpls", r->vpl.count, 4 * sizeof(uint32_t));
     out->indirect = r->gather.out;
+    r->samples = in->width * in->height;
 }
 
 static int rsm_counters(void *self, gi_counter *out, int max)
@@ -151,6 +153,7 @@ static int rsm_counters(void *self, gi_counter *out, int max)
     const bool known = ag_readback_latest(&r->count, count);
     const gi_counter counters[] = {
         { "shadow_maps", 0 },
+        { "samples", r->samples },
         { "vpl_slots", r->vpl.capacity },
         { "vpls", count[0] },
     };
