@@ -15,8 +15,8 @@ FG_BEGIN
 //         status = file_end(log, &out, true);
 //     }
 //
-// Symbolic links are followed; one that leads nowhere is replaced. What is there and no regular file (a pipe, /dev/null) is
-// written to directly.
+// Symbolic links are followed; one that leads nowhere is replaced. What is there and no regular
+// file (a pipe, /dev/null) is written to directly.
 typedef struct file {
     FILE *stream;        // read and write, binary
     char *path, *beside; // beside NULL: written directly

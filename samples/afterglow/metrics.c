@@ -135,7 +135,8 @@ static void finish(tally *t, metrics *out)
 
 fg_status metrics_compare(const fg_log *log, const image *a, const image *b, metrics *out)
 {
-    *out = (metrics){ NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0 };
+    const double nan = (double) NAN;
+    *out = (metrics){ nan, nan, nan, nan, nan, nan, nan, nan, 0 };
     if (!same_size(log, a, b))
         return FG_ERR_INVALID;
     const size_t channels = 3 * (size_t) a->width * (size_t) a->height;

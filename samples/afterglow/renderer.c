@@ -298,12 +298,14 @@ uint32_t renderer_texture(renderer *r, renderer_layer layer)
     return wanted ? fg_graph_exported(r->graph, r->layers[layer]) : 0;
 }
 
-// Turns rows of rgba from the bottom up into rows of rgb from the top down.
-static void store(const renderer *r, renderer_layer layer, const float *rgba, image *out)
+// Turns `count` rows of rgba from row `first` up, counted from the bottom, into rows of rgb from
+// the top down.
+static void store(const renderer *r, renderer_layer layer, const float *rgba, int first, int count,
+                  image *out)
 {
-    for (int y = 0; y < out->height; y++) {
-        const float *from = rgba + (size_t) 4 * out->width * (out->height - 1 - y);
-        float *to = out->rgb + (size_t) 3 * out->width * y;
+    for (int y = first; y < first + count; y++) {
+        const float *from = rgba + (size_t) 4 * out->width * (y - first);
+        float *to = out->rgb + (size_t) 3 * out->width * (out->height - 1 - y);
         for (int x = 0; x < out->width; x++, from += 4, to += 3) {
             const bool world = layer == LAYER_POSITION && from[3] > 0.5f;
             for (int c = 0; c < 3; c++)
@@ -320,14 +322,19 @@ fg_status renderer_read(renderer *r, renderer_layer layer, image *out)
                 layer < LAYER_COUNT ? renderer_layer_names[layer] : "?");
         return FG_ERR_INVALID;
     }
-    const size_t floats = (size_t) 4 * r->desc.width * r->desc.height;
-    float *rgba = malloc(floats * sizeof *rgba);
-    fg_status status =
-        rgba ? image_create(r->desc.log, r->desc.width, r->desc.height, out) : FG_ERR_MEMORY;
-    if (!status) {
+    // In bands: OpenGL counts the bytes of one call in an int.
+    enum { BAND = 64 };
+    const int width = r->desc.width, height = r->desc.height;
+    const size_t size = sizeof(float) * 4 * (size_t) width * BAND;
+    float *rgba = malloc(size);
+    fg_status status = rgba ? image_create(r->desc.log, width, height, out) : FG_ERR_MEMORY;
+    if (!status)
         glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-        glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, (GLsizei) (floats * sizeof *rgba), rgba);
-        store(r, layer, rgba, out);
+    for (int y = 0; !status && y < height; y += BAND) {
+        const int rows = height - y < BAND ? height - y : BAND;
+        glGetTextureSubImage(texture, 0, 0, y, 0, width, rows, 1, GL_RGBA, GL_FLOAT, (GLsizei) size,
+                             rgba);
+        store(r, layer, rgba, y, rows, out);
     }
     free(rgba);
     return status;
