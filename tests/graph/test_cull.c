@@ -301,6 +301,21 @@ static void internal_pass_keeps_its_inputs(void **state) // C24
     rig_close(r);
 }
 
+// Passes w0 to w39 write the layers of `a` in turn; with `lacking` the last one at layer 2, w38, is
+// left out. Gives the last version.
+static fg_res write_in_turn(rig *r, fg_res a, int lacking)
+{
+    for (int i = 0; i < 40; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "w%d", i);
+        const fg_io part = { a, .layer = (uint16_t) (i % 4), .layers = 1, .mips = 1 };
+        PASSES(r, PASS(r, name, .needs = lacking && i == 38 ? 2 : 0, .writes = { part }));
+        if (i < 39)
+            a = fg_next(a);
+    }
+    return a;
+}
+
 static void last_writer_of_a_part_is_found_among_many_versions(void **state)
 {
     (void) state;
@@ -308,15 +323,8 @@ static void last_writer_of_a_part_is_found_among_many_versions(void **state)
     for (int lacking = 0; lacking < 2; lacking++) {
         begin_with(r, 0);
         const fg_res screen = fg_import_texture(r->g, "screen", &(fg_tex_desc){ 0 }, 900);
-        fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .layers = 4, .mips = 2 }), last = a;
-        for (int i = 0; i < 40; i++, a = fg_next(a)) {
-            char name[16];
-            snprintf(name, sizeof name, "w%d", i);
-            const fg_io part = { a, .layer = (uint16_t) (i % 4), .layers = 1, .mips = 1 };
-            // Pass 38 is the last one at layer 2.
-            PASSES(r, PASS(r, name, .needs = lacking && i == 38 ? 2 : 0, .writes = { part }));
-            last = a;
-        }
+        const fg_res a = fg_texture(r->g, "a", &(fg_tex_desc){ .layers = 4, .mips = 2 });
+        const fg_res last = write_in_turn(r, a, lacking);
         const fg_io read = { last, .layer = 2, .layers = 1, .mips = 1 };
         PASSES(r, PASS(r, "show", .reads = { read }, .writes = { { fg_next(screen) } }));
         rig_must_compile(r);
