@@ -55,13 +55,7 @@ static int run(cli *c, const options *o)
     if (code == EXIT_DONE && o->output)
         code = host_check_output(c, o, false);
     if (code == EXIT_DONE)
-        code = host_open_registry(&h);
-    if (code == EXIT_DONE)
-        code = host_settings(&h, false, settings, &count);
-    if (code == EXIT_DONE)
-        code = host_open_scene(&h, o->operands[0]);
-    if (code == EXIT_DONE)
-        code = host_open_device(&h);
+        code = host_open(&h, settings, &count);
     if (code == EXIT_DONE)
         code = dump(&h, &settings[0], format);
     for (int i = 0; i < count; ++i)

@@ -59,13 +59,7 @@ static int run(cli *c, const options *o)
     host_init(&h, c, o);
     int code = check(&h, &layer);
     if (code == EXIT_DONE)
-        code = host_open_registry(&h);
-    if (code == EXIT_DONE)
-        code = host_settings(&h, false, settings, &count);
-    if (code == EXIT_DONE)
-        code = host_open_scene(&h, o->operands[0]);
-    if (code == EXIT_DONE)
-        code = host_open_device(&h);
+        code = host_open(&h, settings, &count);
     if (code == EXIT_DONE)
         code = render(&h, settings, count, layer);
     for (int i = 0; i < count; ++i)

@@ -335,6 +335,16 @@ int host_settings(host *h, bool all, setting *out, int *count)
     return code;
 }
 
+int host_open(host *h, setting *out, int *count)
+{
+    int code = host_open_registry(h);
+    if (code == EXIT_DONE)
+        code = host_settings(h, false, out, count);
+    if (code == EXIT_DONE)
+        code = host_open_scene(h, h->o->operands[0]);
+    return code == EXIT_DONE ? host_open_device(h) : code;
+}
+
 bool host_serves(const host *h, const gi_plugin *plugin, const char **why)
 {
     const uint64_t lacking = plugin && !h->o->needs_all ? plugin->needs & ~h->scene->features : 0;

@@ -52,6 +52,9 @@ int host_setting(host *h, const char *name, setting *out);
 // One setting for each --gi, or for each plugin that loads when `all` and none was given.
 // `out` has CLI_MAX_GI entries.
 int host_settings(host *h, bool all, setting *out, int *count);
+// All that a frame of the first operand takes, in the order in which mistakes are cheapest to find:
+// registry, settings (one for each --gi), scene, device.
+int host_open(host *h, setting *out, int *count);
 // Complains about a --set that none of the plugins takes, unless one was refused.
 int host_check_set(host *h, const setting *settings, int count);
 
