@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#ifndef PASS_MULTIRES_H
+#define PASS_MULTIRES_H
+
+#include <pass/pyramid.h>
+#include <pass/variation.h>
+
+FG_BEGIN
+
+// Chooses at which resolution each part of the image is lit, and brings what was gathered there
+// back to every pixel:
+//
+//     ag_multires_declare(&m, g, &scene, &gbuffer, &(ag_multires_desc){ .prefix = "isr", ... });
+//     ag_gather_declare(..., &(ag_gather_desc){ .multires = &m, ... });    // E / pi at its texels
+//     ag_upsample_declare(&up, g, &m, gather.out, "isr");                  // at every pixel
+//
+// Level l of the multiresolution buffer has a texel for each block of 2^l x 2^l pixels, l = 0 ..
+// levels - 1. A texel is refined where depth or normals change too much within it, where it reaches
+// beyond the image, or where a neighbour is refined twice over: levels of neighbours differ by one
+// at most. It is valid where it is not refined and the texel above it is, so that each pixel is
+// covered by exactly one valid texel. Passes "PREFIX.eye_variation", "PREFIX.refine", "PREFIX.list"
+// or "PREFIX.stencil".
+//
+// Shapes: texels: uint[capacity], the valid texels that show a surface, coarse levels first, as
+//         passes/multires/texel.glsl packs them; count: uvec4, x how many those are, y 0, and then
+//         (x over 1024 rounded up, 1, 1, 0), an indirect dispatch: 8 words.
+//         flags: two bits a texel, see texel.glsl: refined; and mixed, with an edge in it.
+//         stencil: depth-stencil of the pyramid's size, stencil 1 at those texels; see `cull`.
+// Source: Nichols, Shopf, Wyman 2009, sec. 3.2.1.
+//         Departs from it: 2:1 balance; depth by departure from a plane; a texel is never beyond
+//         the image's edge.
+typedef enum ag_cull {
+    AG_CULL_COMPACT = 0, // valid texels in a list; indirect dispatch
+    AG_CULL_STENCIL,     // the paper's: valid texels marked by stencil, early stencil test
+} ag_cull;
+
+typedef struct ag_multires_desc {
+    const char *prefix;
+    int width, height; // pixels
+    int coarsest;      // texels along the longer edge of the coarsest level, about: >= 1; 0: 64
+    float depth;       // largest depth derivative that is not refined, >= 0
+    float normal;      // largest extent of a component of the normal that is not refined, [0, 2]
+    ag_depth_metric metric;
+    ag_cull cull;
+    bool unbalanced; // leave 2:1 out
+    bool orthographic;
+} ag_multires_desc;
+
+typedef struct ag_multires_pass {
+    ag_scene_res scene;
+    fg_res position, normal; // of the G-buffer
+    ag_variation_pass variation;
+    fg_res flags, texels, count;
+    fg_res stencil; // AG_CULL_STENCIL
+    ag_pyramid pyramid;
+    int width, height;
+    int capacity; // of `texels`: the pixels
+    float limit_depth, limit_normal;
+    ag_cull cull;
+    bool unbalanced;
+} ag_multires_pass;
+
+FG_API void ag_multires_declare(ag_multires_pass *pass, fg_graph *g, const ag_scene_res *scene,
+                                const ag_gbuffer *gbuffer, const ag_multires_desc *desc);
+
+// Levels for an image of this size: the coarsest has at most `coarsest` texels along its longer
+// edge, or the image AG_MAX_LEVELS halvings.
+FG_API int ag_multires_levels(int width, int height, int coarsest);
+
+// Interpolates a multiresolution image to every pixel: passes "PREFIX.push..." and
+// "PREFIX.upsample".
+//
+// From the coarsest level to the finest each texel without a value of its own takes the bilinear
+// mean of the four nearest on the coarser level, of those that have no edge in them and are not
+// beyond one. A constant stays as it is; what is linear stays linear within a surface.
+//
+// Shapes: in and out RGBA32F; `image` a pyramid of all levels (pass->pyramid), values at the valid
+//         texels, the rest undefined; out of the frame's size, a 1, 0 where nothing is.
+// Source: Nichols, Wyman. Multiresolution Splatting for Indirect Illumination. I3D 2009, sec. 4.4,
+//         as used in Nichols, Shopf, Wyman 2009, sec. 3.2.2.
+typedef struct ag_upsample_pass {
+    const ag_multires_pass *multires;
+    fg_res image;
+    fg_res out;
+} ag_upsample_pass;
+
+FG_API void ag_upsample_declare(ag_upsample_pass *pass, fg_graph *g,
+                                const ag_multires_pass *multires, fg_res image, const char *prefix);
+
+FG_END
+
+#endif // PASS_MULTIRES_H
