@@ -197,6 +197,14 @@ const char *gi_name(gi_registry *r, int i)
     return i >= 0 && i < r->count ? r->entries[i].name : NULL;
 }
 
+int gi_layers_count(const gi_plugin *p)
+{
+    int n = 0;
+    while (p->layers && p->layers[n].name)
+        ++n;
+    return n;
+}
+
 // ---- loading --------------------------------------------------------------------
 
 static bool check_param(const fg_log *log, const gi_plugin *p, const gi_param *row)
@@ -220,6 +228,28 @@ static bool check_param(const fg_log *log, const gi_plugin *p, const gi_param *r
     if (fault)
         fg_logf(log, FG_LOG_ERROR, "plugin %s: parameter '%s' %s", p->name, row->name, fault);
     return !fault;
+}
+
+static bool check_layers(const fg_log *log, const gi_plugin *p)
+{
+    enum { MAX_NAME = 31 };
+    for (int i = 0; p->layers && p->layers[i].name; ++i) {
+        const char *name = p->layers[i].name, *fault = NULL;
+        if (i == GI_MAX_LAYERS)
+            fault = "is one too many";
+        else if (!name[0] || strlen(name) > MAX_NAME || strchr(name, '.'))
+            fault = "must be called by 1 to 31 letters without a '.'";
+        else if (!p->layers[i].help)
+            fault = "has no help";
+        for (int k = 0; !fault && k < i; ++k)
+            if (!strcmp(p->layers[k].name, name))
+                fault = "is there twice";
+        if (fault) {
+            fg_logf(log, FG_LOG_ERROR, "plugin %s: layer '%s' %s", p->name, name, fault);
+            return false;
+        }
+    }
+    return true;
 }
 
 // The first field is the ABI number in every version; nothing else is read before it is right.
@@ -248,7 +278,7 @@ static bool check(const fg_log *log, const entry *e, const gi_plugin *p)
         if (!check_param(log, p, row))
             return false;
     }
-    return true;
+    return check_layers(log, p);
 }
 
 static const gi_plugin *load(gi_registry *r, entry *e)

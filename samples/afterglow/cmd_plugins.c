@@ -32,6 +32,9 @@ static bool print_plugin(const gi_plugin *plugin)
         gi_params_print(plugin, values, i, text, sizeof text);
         print_param(&plugin->params[i], text);
     }
+    for (int i = 0; i < gi_layers_count(plugin); ++i)
+        printf("  --layer %s.%s\n  %16s %s\n", plugin->name, plugin->layers[i].name, "",
+               plugin->layers[i].help);
     free(values);
     return true;
 }
@@ -86,6 +89,13 @@ static cJSON *plugin_json(const gi_plugin *plugin)
     cJSON *params = cJSON_AddArrayToObject(object, "params");
     for (int i = 0; i < gi_params_count(plugin); ++i)
         cJSON_AddItemToArray(params, param_json(&plugin->params[i]));
+    cJSON *layers = cJSON_AddArrayToObject(object, "layers");
+    for (int i = 0; i < gi_layers_count(plugin); ++i) {
+        cJSON *layer = cJSON_CreateObject();
+        cJSON_AddStringToObject(layer, "name", plugin->layers[i].name);
+        cJSON_AddStringToObject(layer, "help", plugin->layers[i].help);
+        cJSON_AddItemToArray(layers, layer);
+    }
     return object;
 }
 
@@ -127,7 +137,7 @@ static int run(cli *c, const options *o)
 const command command_plugins = {
     .name = "plugins",
     .operands = "",
-    .summary = "Lists the plugins that are installed, with their parameters",
+    .summary = "Lists the plugins that are installed, with their parameters and layers",
     .option_names = " --json --plugin-dir ",
     .run = run,
 };

@@ -36,33 +36,33 @@ static fg_status write_stats(host *h, renderer *r, const renderer_desc *desc, in
     return status;
 }
 
-static int render(host *h, const setting *s, renderer_layer layer)
+static int render(host *h, const setting *s)
 {
     const int width = h->o->width ? h->o->width : 512, height = h->o->height ? h->o->height : 512;
     const int frame = h->o->frame > 0 ? h->o->frame : 0;
     renderer *r = NULL;
     image picture = { 0 };
     renderer_desc desc = host_renderer_desc(h, s, width, height);
-    desc.layers = 1u << layer;
+    desc.layers = 1u << s->layer;
     fg_status status = host_renderer(h, &desc, &r);
     if (status == FG_OK)
         status = run_frames(r, frame);
     if (status == FG_OK)
-        status = renderer_read(r, layer, &picture);
+        status = renderer_read(r, s->layer, &picture);
     // The picture is written last: with its figures or not at all.
     if (status == FG_OK && h->o->stats)
         status = write_stats(h, r, &desc, frame);
     if (status == FG_OK)
-        status = image_write(&h->c->log, h->o->output, &picture, host_layer_kind(layer));
+        status = image_write(&h->c->log, h->o->output, &picture, host_layer_kind(s->layer));
     image_finish(&picture);
     renderer_destroy(r);
     return cli_status(h->c, status);
 }
 
-static int check(host *h, renderer_layer *layer)
+static int check(host *h)
 {
-    int code = host_layer(h->c, h->o->layer, LAYER_FINAL, layer);
-    if (code == EXIT_DONE && h->o->gi_count > 1)
+    int code = EXIT_DONE;
+    if (h->o->gi_count > 1)
         code = cli_fail(h->c, EXIT_USAGE, "--gi: render takes one plugin, %d are given",
                         h->o->gi_count);
     if (code == EXIT_DONE)
@@ -80,13 +80,12 @@ static int run(cli *c, const options *o)
     host h;
     setting settings[CLI_MAX_GI];
     int count = 0;
-    renderer_layer layer = LAYER_FINAL;
     host_init(&h, c, o);
-    int code = check(&h, &layer);
+    int code = check(&h);
     if (code == EXIT_DONE)
         code = host_open(&h, settings, &count);
     if (code == EXIT_DONE)
-        code = render(&h, &settings[0], layer);
+        code = render(&h, &settings[0]);
     for (int i = 0; i < count; ++i)
         setting_finish(&settings[i]);
     host_finish(&h);
@@ -99,6 +98,7 @@ const command command_render = {
     .summary = "Renders one frame without a window",
     .help =
         "FILE ends in .png (sRGB; normals and positions as value/2 + 1/2), .exr or .pfm (linear).\n"
+        "--layer takes what 'afterglow plugins' lists of the plugin, too: LAYER or NAME.LAYER.\n"
         "--stats times a few more frames of the animation after the one that is taken.",
     .option_names = OPTIONS_SCENE OPTIONS_GPU OPTIONS_FRAME
     " --frame --layer --stats --timing-frames --output ",

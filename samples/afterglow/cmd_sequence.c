@@ -17,28 +17,30 @@ static fg_status write_frame(host *h, renderer *r, renderer_layer layer, int fra
     return status;
 }
 
-static int render(host *h, const setting *settings, int count, renderer_layer layer)
+static int render(host *h, const setting *settings, int count)
 {
     const int width = h->o->width ? h->o->width : 512, height = h->o->height ? h->o->height : 512;
     renderer *r = NULL;
     renderer_desc desc = host_renderer_desc(h, &settings[0], width, height);
-    desc.layers = 1u << layer;
+    desc.layers = 1u << settings[0].layer;
     fg_status status = host_renderer(h, &desc, &r);
     for (int i = 0; i < h->o->frames && status == FG_OK; ++i) {
         const setting *s = &settings[i % count];
         if (i > 0 && count > 1)
             status = host_switch(h, r, s);
         if (status == FG_OK)
+            status = renderer_set_layers(r, 1u << s->layer);
+        if (status == FG_OK)
             status = renderer_frame(r, i / 60.0);
         if (status == FG_OK)
-            status = write_frame(h, r, layer, i);
+            status = write_frame(h, r, s->layer, i);
         cli_progress("frames", (i + 1.0) / h->o->frames);
     }
     renderer_destroy(r);
     return cli_status(h->c, status);
 }
 
-static int check(host *h, renderer_layer *layer)
+static int check(host *h)
 {
     const char *format = h->o->format;
     if (!h->o->frames)
@@ -46,8 +48,7 @@ static int check(host *h, renderer_layer *layer)
     if (format && strcmp(format, "png") != 0 && strcmp(format, "exr") != 0 &&
         strcmp(format, "pfm") != 0)
         return cli_fail(h->c, EXIT_USAGE, "--format: is '%s', must be png, exr or pfm", format);
-    const int code = host_layer(h->c, h->o->layer, LAYER_FINAL, layer);
-    return code != EXIT_DONE ? code : host_check_folder(h->c, h->o);
+    return host_check_folder(h->c, h->o);
 }
 
 static int run(cli *c, const options *o)
@@ -55,13 +56,12 @@ static int run(cli *c, const options *o)
     host h;
     setting settings[CLI_MAX_GI];
     int count = 0;
-    renderer_layer layer = LAYER_FINAL;
     host_init(&h, c, o);
-    int code = check(&h, &layer);
+    int code = check(&h);
     if (code == EXIT_DONE)
         code = host_open(&h, settings, &count);
     if (code == EXIT_DONE)
-        code = render(&h, settings, count, layer);
+        code = render(&h, settings, count);
     for (int i = 0; i < count; ++i)
         setting_finish(&settings[i]);
     host_finish(&h);
@@ -74,7 +74,8 @@ const command command_sequence = {
     .summary = "Renders frames of the animation, 1/60 s apart",
     .help =
         "Writes FILE/frame_0000.png and on (--format png, exr or pfm). Several --gi take turns,\n"
-        "frame by frame, in one process.",
+        "frame by frame, in one process. --layer takes what 'afterglow plugins' lists of the\n"
+        "plugins, too: LAYER or NAME.LAYER.",
     .option_names = OPTIONS_SCENE OPTIONS_GPU OPTIONS_FRAME " --frames --layer --format --output ",
     .min_operands = 1,
     .max_operands = 1,

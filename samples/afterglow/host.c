@@ -198,7 +198,7 @@ static gi_value *new_values(const gi_plugin *plugin)
 
 bool setting_copy(const setting *from, setting *to)
 {
-    *to = (setting){ .plugin = from->plugin };
+    *to = (setting){ .plugin = from->plugin, .layer = from->layer };
     if (!from->plugin)
         return true;
     to->values = new_values(from->plugin);
@@ -277,6 +277,42 @@ int host_setting(host *h, const char *name, setting *out)
     return EXIT_DONE;
 }
 
+// Every layer that there is with the plugin: "final, radiance, ..., isr.level".
+static void list_layers(const gi_plugin *p, char *text, size_t size)
+{
+    size_t used = 0;
+    for (int i = 0; i < LAYER_COUNT && used < size; ++i)
+        used += (size_t) snprintf(text + used, size - used, "%s%s", i ? ", " : "",
+                                  renderer_layer_names[i]);
+    for (int i = 0; p && i < gi_layers_count(p) && used < size; ++i)
+        used += (size_t) snprintf(text + used, size - used, ", %s.%s", p->name, p->layers[i].name);
+}
+
+// A plugin's layer goes by its name, too, where no other has it.
+static int choose_layer(const host *h, setting *s)
+{
+    const char *name = h->o->layer;
+    char known[512];
+    s->layer = LAYER_FINAL;
+    if (!name)
+        return EXIT_DONE;
+    for (int i = 0; i < LAYER_COUNT; ++i)
+        if (!strcmp(name, renderer_layer_names[i])) {
+            s->layer = (renderer_layer) i;
+            return EXIT_DONE;
+        }
+    const size_t length = strlen(setting_name(s));
+    const bool full = !strncmp(name, setting_name(s), length) && name[length] == '.';
+    for (int i = 0; s->plugin && i < gi_layers_count(s->plugin); ++i)
+        if (!strcmp(full ? name + length + 1 : name, s->plugin->layers[i].name)) {
+            s->layer = (renderer_layer) (LAYER_PLUGIN + i);
+            return EXIT_DONE;
+        }
+    list_layers(s->plugin, known, sizeof known);
+    return cli_fail(h->c, EXIT_USAGE, "--layer: is '%s', with --gi %s there is %s", name,
+                    setting_name(s), known);
+}
+
 int host_check_set(host *h, const setting *settings, int count)
 {
     for (int i = 0; i < h->o->set_count; ++i) {
@@ -325,6 +361,8 @@ int host_settings(host *h, bool all, setting *out, int *count)
     for (int i = 0; i < n && code == EXIT_DONE; ++i) {
         code = host_setting(h, names[i], &out[*count]);
         *count += code == EXIT_DONE;
+        if (code == EXIT_DONE)
+            code = choose_layer(h, &out[*count - 1]);
     }
     if (code == EXIT_DONE)
         code = host_check_set(h, out, *count);
@@ -413,23 +451,6 @@ fg_status host_renderer(host *h, const renderer_desc *desc, renderer **out)
 }
 
 // ---- layers and outputs ----------------------------------------------------------------------
-
-int host_layer(cli *c, const char *name, renderer_layer fallback, renderer_layer *out)
-{
-    *out = fallback;
-    if (!name)
-        return EXIT_DONE;
-    for (int i = 0; i < LAYER_COUNT; ++i)
-        if (!strcmp(name, renderer_layer_names[i])) {
-            *out = (renderer_layer) i;
-            return EXIT_DONE;
-        }
-    return cli_fail(
-        c, EXIT_USAGE,
-        "--layer: is '%s', must be final, radiance, direct, indirect, albedo, normal or "
-        "position",
-        name);
-}
 
 image_kind host_layer_kind(renderer_layer layer)
 {

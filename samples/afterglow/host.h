@@ -12,7 +12,8 @@
 // A plugin and what it is set to. Plugin NULL: direct light alone.
 typedef struct setting {
     const gi_plugin *plugin;
-    gi_value *values; // owned; NULL without a plugin
+    gi_value *values;     // owned; NULL without a plugin
+    renderer_layer layer; // what --layer asks for, where a command takes it
 } setting;
 
 void setting_finish(setting *s);
@@ -72,8 +73,6 @@ FG_NODISCARD fg_status host_renderer(host *h, const renderer_desc *desc, rendere
 // Likewise between two frames.
 FG_NODISCARD fg_status host_switch(host *h, renderer *r, const setting *s);
 
-// Layer by name: NULL gives `fallback`.
-int host_layer(cli *c, const char *name, renderer_layer fallback, renderer_layer *out);
 image_kind host_layer_kind(renderer_layer layer);
 // -o: there, with an extension of a picture where `picture`, and writable.
 int host_check_output(cli *c, const options *o, bool picture);

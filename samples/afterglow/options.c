@@ -164,7 +164,8 @@ static const option table[] = {
     { OPT_TIMING_FRAMES, "--timing-frames", NULL, "N", "a whole number from 1 to 10000",
       "frames that --stats times after the one that is taken (5)" },
     { OPT_LAYER, "--layer", NULL, "L", "",
-      "radiance, direct, indirect, albedo, normal, position or, of a rendered frame, final" },
+      "radiance, direct, indirect, albedo, normal, position; of a rendered frame final or a "
+      "plugin's own" },
     { OPT_FORMAT, "--format", NULL, "F", "", "how to write it" },
     { OPT_FILTER, "--filter", NULL, "F", "",
       "point: pixel centres, as a rasteriser samples; or box" },

@@ -32,7 +32,7 @@ struct renderer {
     ag_direct_pass direct;
     ag_compose_pass compose, indirect;
     ag_tone_pass tone;
-    fg_res layers[LAYER_COUNT];
+    fg_res layers[LAYER_END];
 };
 
 static fg_status refuse(const renderer_desc *desc, const char *what)
@@ -47,7 +47,7 @@ static fg_status check(const renderer_desc *desc)
         return refuse(desc, "needs a device and a scene");
     if (desc->width < 1 || desc->height < 1)
         return refuse(desc, "the size must be at least 1 x 1");
-    if (desc->layers >> LAYER_COUNT)
+    if (desc->layers >> LAYER_END)
         return refuse(desc, "there is no such layer");
     if (!(desc->exposure >= 0))
         return refuse(desc, "exposure must not be negative");
@@ -167,6 +167,18 @@ fg_status renderer_set_plugin(renderer *r, const gi_plugin *plugin, const gi_val
     return status;
 }
 
+fg_status renderer_set_layers(renderer *r, unsigned layers)
+{
+    if (layers >> LAYER_END)
+        return refuse(&r->desc, "there is no such layer");
+    if (layers == 0)
+        layers = 1u << LAYER_FINAL;
+    if (layers != r->desc.layers)
+        r->declared = false;
+    r->desc.layers = layers;
+    return FG_OK;
+}
+
 fg_status renderer_resize(renderer *r, int width, int height)
 {
     if (width < 1 || height < 1)
@@ -233,6 +245,34 @@ static void declare_output(renderer *r, const ag_scene_res *scene, const gi_outp
     ag_tone_declare(&r->tone, r->graph, r->compose.out);
 }
 
+// For messages: "direct", "isr.level".
+static const char *layer_name(const renderer *r, renderer_layer layer, char *text, size_t size)
+{
+    const int i = layer - LAYER_PLUGIN;
+    if (layer < LAYER_COUNT)
+        return renderer_layer_names[layer];
+    if (r->plugin && i < gi_layers_count(r->plugin))
+        snprintf(text, size, "%s.%s", r->plugin->name, r->plugin->layers[i].name);
+    else
+        snprintf(text, size, "%d of %s", i,
+                 r->plugin ? r->plugin->name : "a plugin that does not run");
+    return text;
+}
+
+static void export_layers(renderer *r)
+{
+    char name[64];
+    for (int i = 0; i < LAYER_END; i++) {
+        if (!(r->desc.layers & 1u << i))
+            continue;
+        if (i < LAYER_COUNT || r->layers[i].id)
+            fg_export(r->graph, r->layers[i]);
+        else
+            fg_fail(r->graph, "layer %s: is not there in this scene, at these settings",
+                    layer_name(r, (renderer_layer) i, name, sizeof name));
+    }
+}
+
 static fg_status declare(renderer *r)
 {
     fg_graph *g = r->graph;
@@ -251,7 +291,7 @@ static fg_status declare(renderer *r)
     ag_direct_declare(&r->direct, g, r->gpu, &scene, &r->gbuffer.out, r->shadow.maps);
     declare_plugin(r, &scene, &gi);
     declare_output(r, &scene, &gi);
-    const fg_res layers[LAYER_COUNT] = {
+    const fg_res layers[] = {
         [LAYER_FINAL] = r->tone.out,
         [LAYER_RADIANCE] = r->compose.out,
         [LAYER_DIRECT] = r->direct.out,
@@ -261,9 +301,8 @@ static fg_status declare(renderer *r)
         [LAYER_POSITION] = r->gbuffer.out.position,
     };
     memcpy(r->layers, layers, sizeof layers);
-    for (int i = 0; i < LAYER_COUNT; i++)
-        if (r->desc.layers & 1u << i)
-            fg_export(g, layers[i]);
+    memcpy(r->layers + LAYER_PLUGIN, gi.layers, sizeof gi.layers);
+    export_layers(r);
     const fg_status status = fg_graph_compile(g);
     r->declared = status == FG_OK;
     return status;
@@ -294,7 +333,7 @@ fg_status renderer_frame(renderer *r, double time)
 
 uint32_t renderer_texture(renderer *r, renderer_layer layer)
 {
-    const bool wanted = r->declared && layer < LAYER_COUNT && (r->desc.layers & 1u << layer);
+    const bool wanted = r->declared && layer < LAYER_END && (r->desc.layers & 1u << layer);
     return wanted ? fg_graph_exported(r->graph, r->layers[layer]) : 0;
 }
 
@@ -314,20 +353,43 @@ static void store(const renderer *r, renderer_layer layer, const float *rgba, in
     }
 }
 
+// Size of a layer's texture. What a plugin hands out may be anything.
+static fg_status measure(const renderer *r, renderer_layer layer, uint32_t texture, int size[2])
+{
+    char name[64];
+    const char *fault = NULL;
+    int target = GL_TEXTURE_2D, format = 0;
+    if (texture) {
+        glGetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+        glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+        glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_WIDTH, &size[0]);
+        glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_HEIGHT, &size[1]);
+    }
+    if (!texture)
+        fault = "is not there to be read";
+    else if (layer >= LAYER_PLUGIN &&
+             (target != GL_TEXTURE_2D || (format != GL_RGBA16F && format != GL_RGBA32F)))
+        fault = "must be a 2D texture, RGBA16F or RGBA32F";
+    if (!fault)
+        return FG_OK;
+    fg_logf(r->desc.log, FG_LOG_ERROR, "renderer: layer %s %s",
+            layer_name(r, layer, name, sizeof name), fault);
+    return FG_ERR_INVALID;
+}
+
 fg_status renderer_read(renderer *r, renderer_layer layer, image *out)
 {
-    const uint32_t texture = renderer_texture(r, layer);
-    if (!texture) {
-        fg_logf(r->desc.log, FG_LOG_ERROR, "renderer: layer %s is not there to be read",
-                layer < LAYER_COUNT ? renderer_layer_names[layer] : "?");
-        return FG_ERR_INVALID;
-    }
     // In bands: OpenGL counts the bytes of one call in an int.
     enum { BAND = 64 };
-    const int width = r->desc.width, height = r->desc.height;
+    const uint32_t texture = renderer_texture(r, layer);
+    int extent[2] = { 0 };
+    fg_status status = measure(r, layer, texture, extent);
+    if (status)
+        return status;
+    const int width = extent[0], height = extent[1];
     const size_t size = sizeof(float) * 4 * (size_t) width * BAND;
     float *rgba = malloc(size);
-    fg_status status = rgba ? image_create(r->desc.log, width, height, out) : FG_ERR_MEMORY;
+    status = rgba ? image_create(r->desc.log, width, height, out) : FG_ERR_MEMORY;
     if (!status)
         glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     for (int y = 0; !status && y < height; y += BAND) {

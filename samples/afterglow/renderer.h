@@ -20,6 +20,8 @@ typedef enum renderer_layer {
     LAYER_NORMAL,
     LAYER_POSITION, // world; 0 where nothing is
     LAYER_COUNT,
+    LAYER_PLUGIN = LAYER_COUNT, // and on: the plugin's debug layers, in the order of its table
+    LAYER_END = LAYER_PLUGIN + GI_MAX_LAYERS,
 } renderer_layer;
 extern const char *const renderer_layer_names[LAYER_COUNT];
 
@@ -35,7 +37,8 @@ typedef struct renderer_desc {
     const gi_plugin *plugin; // NULL: direct light alone
     const gi_value *values;  // copied; NULL: defaults
     float exposure;          // radiance of 1 after exposure is a middle-bright white; 0: 1
-    unsigned layers;         // bits 1 << layer that can be read back; 0: final alone
+    unsigned layers;         // bits 1 << layer that can be read back; 0: final alone. A frame
+                             // that is to give a layer that the plugin does not have fails.
     bool needs_all;          // every feature counts as present: nothing is left out
     unsigned debug;          // fg_debug bits
     uint64_t seed;
@@ -50,12 +53,14 @@ void renderer_destroy(renderer *r); // accepts NULL
 // frame goes on with direct light and the status says why.
 FG_NODISCARD fg_status renderer_set_plugin(renderer *r, const gi_plugin *plugin,
                                            const gi_value *values);
+// What can be read back of the next frames; as `layers` of the descriptor.
+FG_NODISCARD fg_status renderer_set_layers(renderer *r, unsigned layers);
 FG_NODISCARD fg_status renderer_resize(renderer *r, int width, int height);
 
 // Sets the scene to `time` and runs one frame. Never waits for the GPU.
 FG_NODISCARD fg_status renderer_frame(renderer *r, double time);
 
-// Reads a layer of the last frame; waits.
+// Reads a layer of the last frame, of the frame's size but for debug layers; waits.
 FG_NODISCARD fg_status renderer_read(renderer *r, renderer_layer layer, image *out);
 
 // The texture of a layer of the last frame, for a window: 0 if it was not asked for in `layers`.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Runs the afterglow command and counts what it was expected to do."""
 import os
+import struct
 import subprocess
 import sys
 import tempfile
@@ -42,6 +43,15 @@ def fails(code, words, *args, env=None):
     for word in words:
         assert word in errors[0], (word, str(run))
     return run
+
+
+def read_pfm(path):
+    with open(path, 'rb') as f:
+        assert f.readline() == b'PF\n'
+        width, height = map(int, f.readline().split())
+        assert float(f.readline()) < 0
+        data = f.read()
+    return width, height, struct.unpack('<%df' % (3 * width * height), data)
 
 
 def main(tests):

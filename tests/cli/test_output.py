@@ -5,18 +5,9 @@ import os
 import struct
 import subprocess
 
-from harness import main, succeeds
+from harness import main, read_pfm, succeeds
 
 METRICS = ['rmse', 'rmse_rms', 'rmse_max', 'relmse', 'smape', 'bias', 'energy_ratio', 'p99', 'nonfinite']
-
-
-def read_pfm(path):
-    with open(path, 'rb') as f:
-        assert f.readline() == b'PF\n'
-        width, height = map(int, f.readline().split())
-        assert float(f.readline()) < 0
-        data = f.read()
-    return width, height, struct.unpack('<%df' % (3 * width * height), data)
 
 
 def write_pfm(path, values):

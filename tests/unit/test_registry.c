@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-// MODULES is the folder of the modules that modules/module.c makes.
+// MODULES is the folder of the MODULE_COUNT modules that modules/module.c makes.
 static char last[1024];
 
 static void remember(void *user, fg_log_level level, const char *msg)
@@ -52,7 +52,7 @@ static void names_are_sorted_and_nothing_is_loaded_for_them(void **state)
         if (n)
             assert_true(strcmp(gi_name(r, n - 1), gi_name(r, n)) < 0);
     }
-    assert_int_equal(n, 7);
+    assert_int_equal(n, MODULE_COUNT);
     assert_string_equal(last, "");
     assert_null(gi_name(r, -1));
     gi_registry_destroy(r);
@@ -80,7 +80,7 @@ static void an_unknown_name_is_refused_and_the_known_ones_are_named(void **state
 static void another_abi_is_refused(void **state)
 {
     (void) state;
-    refused("wrong_abi", "was built for ABI 2, this host has ABI 1");
+    refused("wrong_abi", "was built for ABI 3, this host has ABI 2");
 }
 
 static void a_missing_symbol_is_refused(void **state)
@@ -108,6 +108,24 @@ static void a_default_outside_its_range_is_refused(void **state)
     refused("bad_default", "parameter 'size' has a default outside its range");
 }
 
+static void broken_layers_are_refused(void **state)
+{
+    (void) state;
+    refused("twin_layers", "layer 'level' is there twice");
+    refused("many_layers", "layer 'i' is one too many");
+    refused("dotted_layer", "layer 'a.b' must be called by 1 to 31 letters without a '.'");
+    refused("mute_layer", "layer 'level' has no help");
+}
+
+static void layers_are_counted(void **state)
+{
+    (void) state;
+    gi_registry *r = modules();
+    assert_int_equal(gi_layers_count(gi_find(r, "sound")), 8);
+    assert_int_equal(gi_layers_count(&(gi_plugin){ 0 }), 0);
+    gi_registry_destroy(r);
+}
+
 static void the_first_folder_of_a_name_wins(void **state)
 {
     (void) state;
@@ -118,7 +136,7 @@ static void the_first_folder_of_a_name_wins(void **state)
     int n = 0;
     while (gi_name(r, n))
         ++n;
-    assert_int_equal(n, 7);
+    assert_int_equal(n, MODULE_COUNT);
     gi_registry_destroy(r);
 }
 
@@ -222,6 +240,8 @@ int main(void)
         cmocka_unit_test(another_name_than_the_files_is_refused),
         cmocka_unit_test(an_incomplete_table_is_refused),
         cmocka_unit_test(a_default_outside_its_range_is_refused),
+        cmocka_unit_test(broken_layers_are_refused),
+        cmocka_unit_test(layers_are_counted),
         cmocka_unit_test(the_first_folder_of_a_name_wins),
         cmocka_unit_test(the_environment_adds_folders),
         cmocka_unit_test(defaults_come_from_the_table),

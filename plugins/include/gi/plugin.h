@@ -18,7 +18,7 @@ FG_BEGIN
 //         p->declare(self, g, &in, &out);                       // passes "rsm.*"
 //         ... compose reads out.indirect ...
 //     p->destroy(self);
-enum { GI_PLUGIN_ABI = 1 };
+enum { GI_PLUGIN_ABI = 2 };
 
 // ---- parameters --------------------------------------------------------------------
 
@@ -49,6 +49,17 @@ typedef union gi_value {
     double f;
 } gi_value;
 
+// ---- debug layers --------------------------------------------------------------------
+
+// A picture of a technique's inner workings, e.g. which level of a hierarchy lights a pixel, for
+// `render --layer NAME`. Its passes cost nothing while nobody looks: the graph culls them.
+typedef struct gi_layer {
+    const char *name; // "level"; at most 31 letters, no '.'; a plugin's own
+    const char *help; // one line
+} gi_layer;
+
+enum { GI_MAX_LAYERS = 8 };
+
 // ---- what a plugin gets ---------------------------------------------------------------
 
 typedef struct gi_env {
@@ -72,11 +83,15 @@ typedef struct gi_inputs {
     fg_res direct;      // RGBA32F: radiance of direct light and emission, W/(m^2 sr)
 } gi_inputs;
 
-// All of the inputs' size. A null handle: the technique gives none.
+// All but layers of the inputs' size. A null handle: the technique gives none.
 typedef struct gi_outputs {
     fg_res indirect; // RGBA16F or RGBA32F: outgoing indirect radiance over albedo, that is E / pi,
                      // W/(m^2 sr)
     fg_res glossy;   // likewise: reflected glossy radiance, W/(m^2 sr), to be added as it is
+
+    // In the order of the plugin's table: RGBA16F or RGBA32F, of any size, rows from the bottom
+    // up, linear values in [0, 1] to be shown as they are. Null: not at these settings.
+    fg_res layers[GI_MAX_LAYERS];
 } gi_outputs;
 
 typedef struct gi_counter {
@@ -95,6 +110,7 @@ typedef struct gi_plugin {
     const char *source;     // the paper: authors, title, venue, year
     const char *summary;    // one line: what it computes and what it leaves out
     const gi_param *params; // ends at a NULL name
+    const gi_layer *layers; // ends at a NULL name, at most GI_MAX_LAYERS. Optional.
     uint64_t needs; // scene features without which there is nothing to do, e.g. AG_FEATURE_LIGHT
 
     // `values` has one entry per row of `params`, all in range, and is copied.

@@ -27,6 +27,9 @@ FG_API const gi_plugin *gi_find(gi_registry *r, const char *name);
 // Names there are, sorted; NULL past the end. Nothing is loaded.
 FG_API const char *gi_name(gi_registry *r, int i);
 
+// How many debug layers the plugin states.
+FG_API int gi_layers_count(const gi_plugin *p);
+
 // ---- parameter values ----------------------------------------------------------------
 
 FG_API int gi_params_count(const gi_plugin *p);

@@ -11,6 +11,10 @@
 #define NO_CREATE 4
 #define BAD_DEFAULT 5
 #define NO_TABLE 6
+#define TWIN_LAYERS 7
+#define MANY_LAYERS 8
+#define DOTTED_LAYER 9
+#define MUTE_LAYER 10
 
 static fg_status create(const gi_env *env, const gi_value *values, void **self)
 {
@@ -48,12 +52,30 @@ static const gi_param params[] = {
     { .name = NULL },
 };
 
+#define LAYER(text)                                                                                \
+    {                                                                                              \
+        .name = text, .help = "for tests"                                                          \
+    }
+static const gi_layer layers[] = {
+    { .name = "level", .help = MODULE_KIND == MUTE_LAYER ? NULL : "for tests" },
+    LAYER(MODULE_KIND == DOTTED_LAYER ? "a.b" : "b"),
+    LAYER(MODULE_KIND == TWIN_LAYERS ? "level" : "c"),
+    LAYER("d"),
+    LAYER("e"),
+    LAYER("f"),
+    LAYER("g"),
+    LAYER("h"),
+    LAYER(MODULE_KIND == MANY_LAYERS ? "i" : NULL),
+    { .name = NULL },
+};
+
 static const gi_plugin plugin = {
     .abi = MODULE_KIND == WRONG_ABI ? GI_PLUGIN_ABI + 1 : GI_PLUGIN_ABI,
     .name = MODULE_KIND == WRONG_NAME ? "else" : MODULE_NAME,
     .source = "none",
     .summary = "for tests",
     .params = params,
+    .layers = layers,
     .create = MODULE_KIND == NO_CREATE ? NULL : create,
     .declare = declare,
     .destroy = destroy,
