@@ -18,17 +18,24 @@ FG_BEGIN
 // levels - 1. A texel is refined where depth or normals change too much within it, where it reaches
 // beyond the image, or where a neighbour is refined twice over: levels of neighbours differ by one
 // at most. It is valid where it is not refined and the texel above it is, so that each pixel is
-// covered by exactly one valid texel. Passes "PREFIX.eye_variation", "PREFIX.refine", "PREFIX.list"
-// or "PREFIX.stencil".
+// covered by exactly one valid texel.
 //
-// Shapes: texels: uint[capacity], the valid texels that show a surface, coarse levels first, as
-//         passes/multires/texel.glsl packs them; count: uvec4, x how many those are, y 0, and then
-//         (x over 1024 rounded up, 1, 1, 0), an indirect dispatch: 8 words.
-//         flags: two bits a texel, see texel.glsl: refined; and mixed, with an edge in it.
-//         stencil: depth-stencil of the pyramid's size, stencil 1 at those texels; see `cull`.
+// With `share` above 0 the levels below are not refined to pixel by pixel: a block of level `share`
+// that holds an edge is covered by its surfaces, and of each one pixel is valid for all.
+//
+// Passes "PREFIX.eye_variation", "PREFIX.refine", "PREFIX.valid", and "PREFIX.list" or
+// "PREFIX.stencil".
+//
+// Shapes: flags: uint of each texel of levels 1 .. levels - 1; tiles: uvec4 of each 8 x 8 pixels:
+// what
+//         is valid; see passes/multires/texel.glsl.
+//         texels: uint[capacity], the valid texels that show a surface, as multires_pack() makes
+//         them; count: uvec4, x how many those are, yzw 0; then an indirect dispatch (x / 1024
+//         rounded up, 1, 1, 0). Both COMPACT only.
+//         stencil: depth-stencil of the pyramid's size, stencil 1 at those texels. STENCIL only.
 // Source: Nichols, Shopf, Wyman 2009, sec. 3.2.1.
-//         Departs from it: 2:1 balance; depth by departure from a plane; a texel is never beyond
-//         the image's edge.
+//         Departs from it: 2:1 balance; departure from a plane as a metric; `share`; a texel never
+//         reaches beyond the image.
 typedef enum ag_cull {
     AG_CULL_COMPACT = 0, // valid texels in a list; indirect dispatch
     AG_CULL_STENCIL,     // the paper's: valid texels marked by stencil, early stencil test
@@ -42,19 +49,20 @@ typedef struct ag_multires_desc {
     float normal;      // largest extent of a component of the normal that is not refined, [0, 2]
     ag_depth_metric metric;
     ag_cull cull;
+    int share;       // [0, 3]; 0: as the paper
     bool unbalanced; // leave 2:1 out
-    bool orthographic;
 } ag_multires_desc;
 
 typedef struct ag_multires_pass {
     ag_scene_res scene;
     fg_res position, normal; // of the G-buffer
     ag_variation_pass variation;
-    fg_res flags, texels, count;
+    fg_res flags, tiles, texels, count;
     fg_res stencil; // AG_CULL_STENCIL
     ag_pyramid pyramid;
     int width, height;
     int capacity; // of `texels`: the pixels
+    int share;
     float limit_depth, limit_normal;
     ag_cull cull;
     bool unbalanced;

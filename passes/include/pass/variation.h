@@ -3,6 +3,7 @@
 #define PASS_VARIATION_H
 
 #include <pass/frame.h>
+#include <pass/pyramid.h>
 
 FG_BEGIN
 
@@ -23,7 +24,9 @@ FG_BEGIN
 //         range RG32F, likewise: least and largest reversed-Z depth of the block's texels that show
 //         a surface; 1, 0 where none does.
 //         Layers as the depth has; 0 means no array.
-// Units:  depth derivative: relative to the distance from the eye, of one texel to the next.
+// Units:  depth derivative: relative to the distance from the eye, of one texel to the next;
+//         orthographic: relative to the whole range of depth.
+// Left out where the scene has no geometry; of lights, where it has none.
 // Source: Nichols, Shopf, Wyman 2009, fig. 2c and sec. 3.2.1, 3.4.
 typedef enum ag_depth_metric {
     AG_DEPTH_PLANE = 0, // by how much depth departs from going on straight: 0 on any plane, however
@@ -37,24 +40,25 @@ typedef struct ag_variation_desc {
     const char *prefix; // e.g. "isr.eye"
     fg_res depth;       // DEPTH32F, reversed Z, 0 where nothing is
     fg_res normal;      // RGBA16F, w 0 where nothing is
-    int width, height, layers;
+    int width, height;
+    int layers; // 0: the view's G-buffer; else reflective shadow maps of all of the scene's faces
     int levels; // [1, AG_MAX_LEVELS]
+    int first;  // finest level that is made, [1, levels]; 0: 1
     ag_depth_metric metric;
-    bool orthographic; // what of: changes in depth are over the whole depth range then
-    bool range;        // make it
-    uint64_t needs;    // of the pass
+    bool range; // make it
 } ag_variation_desc;
 
 typedef struct ag_variation_pass {
     fg_res depth, normal;
     fg_res change;
     fg_res range; // null unless asked for
-    int width, height, layers, levels;
+    ag_scene_res scene;
+    ag_pyramid pyramid; // level l is its (l - 1)-th
+    int width, height, layers, levels, first;
     ag_depth_metric metric;
-    bool orthographic;
 } ag_variation_pass;
 
-FG_API void ag_variation_declare(ag_variation_pass *pass, fg_graph *g,
+FG_API void ag_variation_declare(ag_variation_pass *pass, fg_graph *g, const ag_scene_res *scene,
                                  const ag_variation_desc *desc);
 
 FG_END
