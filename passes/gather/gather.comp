@@ -54,57 +54,9 @@ ivec2 receiver(int i)
 }
 
 #if CLAMP == 3
-// A VPL is near within so many patch areas of squared distance. Beyond, the disc is off by at most
-// A_j / (pi d^2) = 8 % and soon by less; a wider reach costs more than it mends (16 takes a quarter
-// off the error that is left and makes the gather two to three times slower). One that is seen
-// flatter than a half float's normal can tell is in the receiver's own plane and lights nothing.
-const float near_areas = 4.0;
-const float flat_slope2 = 1e-6;
-bool patch_is_near(float d2, float cos_j, float area) // cos_j: times |d|
-{
-    return d2 < near_areas * area && cos_j * cos_j > flat_slope2 * d2;
-}
+#include "passes/gather/near.glsl"
 
 layout(location = 1) uniform int block_size; // block, but not for the compiler to unroll
-
-// 2 pi times the part of an edge in the form factor: the angle it spans, by how upright it stands.
-float edge_integral(vec3 a, vec3 b, vec3 n)
-{
-    vec3 c = cross(a, b);
-    float s = length(c);
-    return s > 0.0 ? atan(s, dot(a, b)) * dot(c, n) / s : 0.0;
-}
-
-// Form factor from the surface element at the origin with normal `n` to the patch of a VPL at `d`,
-// cut off at the element's horizon. Lambert 1760.
-float patch_form_factor(vec3 d, vec3 n, int j, float edge)
-{
-    vec3 m = vpls[j].normal.xyz, t, b;
-    vpl_frame(m, t, b);
-    vec2 eu = unpackHalf2x16(floatBitsToUint(vpls[j].normal.w)) * (0.5 * edge);
-    vec2 ev = unpackHalf2x16(floatBitsToUint(vpls[j].flux.w)) * (0.5 * edge);
-    vec3 u = t * eu.x + b * eu.y, v = t * ev.x + b * ev.y;
-    vec3 at = d - u - v, leaving = vec3(0.0), entering = vec3(0.0);
-    float sum = 0.0, height = dot(n, at);
-    for (int k = 0; k < 4; k++) {
-        vec3 next = k == 0 ? d + u - v : k == 1 ? d + u + v : k == 2 ? d - u + v : d - u - v;
-        float next_height = dot(n, next);
-        vec3 from = at, to = next;
-        if (height * next_height < 0.0) { // one end below the horizon
-            vec3 cut = mix(at, next, height / (height - next_height));
-            if (height < 0.0)
-                from = entering = cut;
-            else
-                to = leaving = cut;
-        }
-        if (max(height, next_height) > 0.0)
-            sum += edge_integral(from, to, n);
-        at = next;
-        height = next_height;
-    }
-    sum += edge_integral(leaving, entering, n);
-    return abs(sum) / (2.0 * pi);
-}
 
 // Adds `near` ones of the VPLs from `start` on to the image. Rare and long, so it stands aside of the
 // loop over all VPLs and fetches its receivers anew.
@@ -124,11 +76,7 @@ void correct_near(int start, uvec2 near, float unit)
                 continue;
             vec3 n = texelFetch(normal_map, at, 0).xyz;
             n /= max(length(n), 1e-6);
-            // Where surfaces meet, a texel that sees both is given to one, and the other ends up to a
-            // texel short of the corner. Half a texel above the patch's plane that hardly shows.
-            float edge = sqrt(area);
-            d -= vpls[j].normal.xyz * max(0.5 * edge - cos_j, 0.0);
-            float share = patch_form_factor(d, n, j, edge) / area;
+            float share = patch_share(d, n, vpls[j], area, cos_j);
             if (all(lessThan(receiver(i), view.size.xy))) {
                 vec4 old = imageLoad(indirect, at);
                 imageStore(indirect, at, old + vec4(vpls[j].flux.rgb * share, 0.0));
