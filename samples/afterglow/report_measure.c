@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "report.h"
 
+#include "batch.h"
 #include "file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct budget {
-    int size;
-    int spp_small, spp_large; // of the truth, in scenes below and from SMALL triangles on
-    int error_frames;         // the picture that is compared is the n-th at time 0
-    int visits, frames;       // of the timing loop: every setting in turn, so often
-    double slow_ms;           // settings slower than this are timed once a visit
-    double too_slow_ms;       // and slower than this in the first visit only
-} budget;
 enum { SMALL = 1000 };
 static const budget quick_budget = { 256, 256, 32, 1, 3, 3, 300, 1000 };
 static const budget full_budget = { 1024, 4096, 1024, 8, 5, 5, 2000, 60000 };
@@ -26,9 +19,8 @@ typedef struct measure {
     int width, height;
     cJSON *doc, *scene; // the document, and the entry of the scene at hand
     const job_list *jobs;
-    timing *timings;  // one a job
-    double *estimate; // one a job: ms of the last frame of the error's
-    cJSON **records;  // one a job; NULL: not served, or another shard's
+    const truths *truths;
+    batch batch; // of the scene at hand
     int scene_number;
 } measure;
 
@@ -118,147 +110,67 @@ static fg_status write_graph(measure *m, renderer *r, const job *j)
     return status;
 }
 
-static fg_status run_error_frames(measure *m, renderer *r, int k)
+static fg_status judge(void *user, int k, renderer *r, image *picture)
 {
-    fg_status status = host_switch(&m->h, r, &m->jobs->jobs[k].s);
-    for (int i = 0; i < m->budget->error_frames && status == FG_OK; ++i) {
-        const double start = now_ms();
-        status = renderer_frame(r, 0);
-        if (status == FG_OK)
-            status = fg_gl_finish(m->h.device);
-        m->estimate[k] = now_ms() - start;
-    }
-    return status;
-}
-
-static fg_status measure_error(measure *m, const truths *t)
-{
-    const setting none = { 0 };
-    renderer *r = NULL;
-    renderer_desc desc = host_renderer_desc(&m->h, &none, m->width, m->height);
-    desc.layers = 1u << LAYER_INDIRECT;
-    fg_status status = host_renderer(&m->h, &desc, &r);
-    for (int k = 0; k < m->jobs->count && status == FG_OK; ++k) {
-        image result = { 0 };
-        const job *j = &m->jobs->jobs[k];
-        cli_progress("errors", (double) k / m->jobs->count);
-        if (!m->records[k])
-            continue;
-        // By way of nothing, so that no setting inherits what the one before has kept.
-        status = host_switch(&m->h, r, &none);
-        if (status == FG_OK)
-            status = run_error_frames(m, r, k);
-        if (status == FG_OK)
-            status = renderer_read(r, LAYER_INDIRECT, &result);
-        if (status == FG_OK)
-            status = add_error(m, &result, t, k, m->records[k]);
-        if (status == FG_OK && j->base)
-            status = write_graph(m, r, j);
-        image_finish(&result);
-    }
-    cli_progress("errors", 1);
-    renderer_destroy(r);
-    return status;
-}
-
-// ---- run time --------------------------------------------------------------------------------
-
-// The rest of a record, from the renderer as it stands after the last visit.
-static void complete_record(measure *m, renderer *r, int k)
-{
+    measure *m = user;
     const job *j = &m->jobs->jobs[k];
-    cJSON *run = record_create(&m->h, r, &j->s, &m->timings[k], m->width, m->height);
-    cJSON *own = m->records[k];
-    cJSON_DeleteItemFromObject(run, "error");
-    cJSON_AddNumberToObject(run, "index", m->scene_number * 100000 + k);
-    cJSON_AddStringToObject(run, "label", j->label);
-    cJSON *item;
-    while ((item = cJSON_DetachItemFromArray(own, 0)))
-        cJSON_AddItemToObject(run, item->string, item);
-    cJSON_Delete(own);
-    m->records[k] = run;
-}
-
-static fg_status visit(measure *m, renderer *r, int k, int number)
-{
-    timing *t = &m->timings[k];
-    const double last = t->count ? t->frame[t->count - 1] : m->estimate[k];
-    const bool slow = last > m->budget->slow_ms;
-    const bool once = m->estimate[k] > m->budget->too_slow_ms;
-    if (once && number)
-        return FG_OK;
-    fg_status status = host_switch(&m->h, r, &m->jobs->jobs[k].s);
-    // What creates and compiles is not to be timed; for the slow, the warm-up frame has to do.
-    if (status == FG_OK && !slow)
-        status = renderer_frame(r, 0);
-    if (status == FG_OK)
-        status = timing_run(t, m->h.device, r, 0, slow ? 1 : m->budget->frames);
-    if (status == FG_OK && (once || number + 1 == m->budget->visits))
-        complete_record(m, r, k);
-    return status;
-}
-
-static fg_status measure_time(measure *m)
-{
-    const setting none = { 0 };
-    renderer *r = NULL;
-    const renderer_desc desc = host_renderer_desc(&m->h, &none, m->width, m->height);
-    fg_status status = host_renderer(&m->h, &desc, &r);
-    for (int v = 0; v < m->budget->visits && status == FG_OK; ++v)
-        for (int k = 0; k < m->jobs->count && status == FG_OK; ++k) {
-            cli_progress("times", (v + (double) k / m->jobs->count) / m->budget->visits);
-            if (m->records[k])
-                status = visit(m, r, k, v);
-        }
-    cli_progress("times", 1);
-    renderer_destroy(r);
-    return status;
+    const fg_status status = add_error(m, picture, m->truths, k, m->batch.records[k]);
+    return status == FG_OK && j->base ? write_graph(m, r, j) : status;
 }
 
 // ---- scenes ----------------------------------------------------------------------------------
 
-// An empty record for each job that is this shard's and that the scene serves.
-static fg_status choose_jobs(measure *m)
+// Leaves out what is another shard's and what the scene does not serve.
+static void choose_jobs(measure *m)
 {
     const options *o = m->h.o;
     cJSON *not_served = cJSON_GetObjectItem(m->scene, "not_served");
     for (int k = 0; k < m->jobs->count; ++k) {
         const job *j = &m->jobs->jobs[k];
         const char *lacks;
-        if (o->shards && (m->scene_number * m->jobs->count + k + 1 - o->shard) % o->shards)
+        const bool served = host_serves(&m->h, j->s.plugin, &lacks);
+        const bool others =
+            o->shards && (m->scene_number * m->jobs->count + k + 1 - o->shard) % o->shards;
+        if (served && !others)
             continue;
-        if (host_serves(&m->h, j->s.plugin, &lacks)) {
-            m->records[k] = cJSON_CreateObject();
-            const fg_status status =
-                timing_create(m->budget->visits * m->budget->frames, &m->timings[k]);
-            if (status != FG_OK)
-                return status;
-        } else if (j->base) {
+        cJSON_Delete(m->batch.records[k]);
+        m->batch.records[k] = NULL;
+        if (!served && !others && j->base) {
             cJSON *entry = cJSON_CreateObject();
             cJSON_AddStringToObject(entry, "plugin", j->s.plugin->name);
             cJSON_AddStringToObject(entry, "lacks", lacks);
             cJSON_AddItemToArray(not_served, entry);
         }
     }
-    return FG_OK;
 }
 
 static fg_status measure_jobs(measure *m, const truths *t)
 {
-    fg_status status = choose_jobs(m);
-    if (status == FG_OK)
-        status = measure_error(m, t);
-    if (status == FG_OK)
-        status = measure_time(m);
+    m->truths = t;
+    m->batch = (batch){
+        .h = &m->h,
+        .budget = m->budget,
+        .width = m->width,
+        .height = m->height,
+        .jobs = m->jobs->jobs,
+        .count = m->jobs->count,
+        .first_index = m->scene_number * 100000,
+        .what = "settings",
+        .judge = judge,
+        .user = m,
+    };
     cJSON *records = cJSON_GetObjectItem(m->doc, "records");
-    for (int k = 0; k < m->jobs->count; ++k) {
-        if (status == FG_OK && m->records[k])
-            cJSON_AddItemToArray(records, m->records[k]);
-        else
-            cJSON_Delete(m->records[k]);
-        m->records[k] = NULL;
-        timing_finish(&m->timings[k]);
+    fg_status status = batch_create(&m->batch);
+    if (status == FG_OK) {
+        choose_jobs(m);
+        status = batch_run(&m->batch);
     }
+    for (int k = 0; k < m->jobs->count && status == FG_OK; ++k) {
+        if (m->batch.records[k])
+            cJSON_AddItemToArray(records, m->batch.records[k]);
+        m->batch.records[k] = NULL;
+    }
+    batch_finish(&m->batch);
     return status;
 }
 
@@ -324,18 +236,10 @@ static int measure_scenes(measure *m, const job_list *jobs)
     const int count = o->operand_count ? o->operand_count : FG_COUNT(defaults);
     int code = EXIT_DONE;
     m->jobs = jobs;
-    m->timings = calloc((size_t) jobs->count, sizeof *m->timings);
-    m->records = calloc((size_t) jobs->count, sizeof(cJSON *));
-    m->estimate = calloc((size_t) jobs->count, sizeof *m->estimate);
-    if (!m->timings || !m->records || !m->estimate)
-        code = cli_status(m->h.c, FG_ERR_MEMORY);
     for (int i = 0; i < count && code == EXIT_DONE; ++i) {
         m->scene_number = i;
         code = measure_scene(m, o->operand_count ? o->operands[i] : defaults[i]);
     }
-    free(m->timings);
-    free(m->records);
-    free(m->estimate);
     return code;
 }
 

@@ -1,75 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "report.h"
 
-#include "file.h"
+#include "plot.h"
 
-#include <errno.h>
 #include <math.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
-
-extern char **environ;
-
-// Colours that tell apart for most eyes.
-static const char *const palette[] = { "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
-                                       "#56b4e9", "#7f3c8d", "#a5aa00", "#666666", "#00429d" };
-
-// ---- programs --------------------------------------------------------------------------------
-
-// Runs a program without output. 0, ENOENT where there is no such program, -1 where it failed.
-static int run_program(const char *const *argv)
-{
-    posix_spawn_file_actions_t actions;
-    pid_t child;
-    int state;
-    if (posix_spawn_file_actions_init(&actions))
-        return -1;
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", 0, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", 1, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
-    const int error = posix_spawnp(&child, argv[0], &actions, NULL, (char *const *) argv, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error)
-        return error == ENOENT ? ENOENT : -1;
-    while (waitpid(child, &state, 0) < 0)
-        if (errno != EINTR)
-            return -1;
-    return WIFEXITED(state) && WEXITSTATUS(state) == 0 ? 0 : -1;
-}
-
-static void note_program(cJSON *doc, const char *program, int result, const char *lacking)
-{
-    report_note(doc, "%s %s: %s", program, result == ENOENT ? "is not installed" : "failed",
-                lacking);
-}
-
-// ---- gnuplot scripts -------------------------------------------------------------------------
-
-// Text in double quotes of a script.
-static void quoted(FILE *f, const char *text)
-{
-    fputc('"', f);
-    for (; *text; ++text)
-        fputc(*text == '"' || *text == '\\' || *text == '`' || (unsigned char) *text < 0x20 ? '\''
-                                                                                            : *text,
-              f);
-    fputc('"', f);
-}
-
-// A file's name in a script, whatever its letters: in single quotes only they are special.
-static void quoted_path(FILE *f, const char *path)
-{
-    fputc('\'', f);
-    for (; *path; ++path) {
-        if (*path == '\'')
-            fputc('\'', f);
-        fputc(*path, f);
-    }
-    fputc('\'', f);
-}
 
 static double frame_median(const cJSON *record)
 {
@@ -146,7 +83,7 @@ static fg_status write_block(FILE *f, const char *name, const cJSON *doc, const 
     fprintf(f, "$%s << END_OF_DATA\n", name);
     for (int i = 0; i < count; ++i) {
         fprintf(f, "%.9g %.9g ", points[i].ms, points[i].error);
-        quoted(f, points[i].label);
+        plot_text(f, points[i].label);
         fputc('\n', f);
     }
     if (!count)
@@ -177,31 +114,18 @@ static void write_ranges(FILE *f, const cJSON *doc, const char *scene, int truth
             fprintf(f, "set %crange [%.6g:%.6g]\n", "xy"[i], low[i] / 1.5, high[i] * 1.5);
 }
 
-static void write_head(FILE *f, const char *svg, int height)
-{
-    fprintf(f,
-            "set terminal svg size 860,%d font 'Helvetica,13' noenhanced background '#ffffff'\n"
-            "set output ",
-            height);
-    quoted_path(f, svg);
-    fprintf(f, "\nset border lc rgb '#444444'\nset grid lc rgb '#dddddd' lw 1\n"
-               "set tics textcolor rgb '#222222'\n");
-}
-
 static double noise_of(const cJSON *scene, int truth)
 {
     const cJSON *entry = cJSON_GetArrayItem(cJSON_GetObjectItem(scene, "references"), truth);
     return json_number(entry, "noise") / json_number(entry, "rms");
 }
 
-static fg_status write_front(FILE *f, const cJSON *doc, const cJSON *scene, int truth,
-                             const char *svg)
+static fg_status write_front(FILE *f, const cJSON *doc, const cJSON *scene, int truth)
 {
     const char *name = json_text(scene, "name"), *plugins[MAX_PLUGINS];
     const int count = list_plugins(doc, name, plugins);
     const double noise = noise_of(scene, truth);
     fg_status status = FG_OK;
-    write_head(f, svg, 480);
     fprintf(f, "set logscale xy\nset key outside right top\nset xlabel 'frame, median ms'\n"
                "set ylabel 'relative RMSE of indirect light'\n");
     write_ranges(f, doc, name, truth, noise);
@@ -215,8 +139,8 @@ static fg_status write_front(FILE *f, const cJSON *doc, const cJSON *scene, int 
     fprintf(f, "plot $front using 1:2 with steps lc rgb '#999999' lw 5 title 'Pareto front'");
     for (int i = 0; i < count; ++i) {
         fprintf(f, ", $p%d using 1:2 with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '%s' title ", i,
-                palette[i % FG_COUNT(palette)]);
-        quoted(f, plugins[i]);
+                plot_colour(i));
+        plot_text(f, plugins[i]);
     }
     if (noise > 0)
         fprintf(f, ", %.6g with lines dt 2 lc rgb '#555555' title 'noise of the truth'", noise);
@@ -282,7 +206,7 @@ static void write_bar(FILE *f, const cJSON *record, const stack *passes, int cou
     char label[160];
     double rest = frame_median(record);
     snprintf(label, sizeof label, "%s %s", json_text(record, "plugin"), json_text(record, "label"));
-    quoted(f, label);
+    plot_text(f, label);
     for (int i = 0; i < count; ++i) {
         const double ms = pass_ms(record, passes[i].name);
         fprintf(f, " %.9g", ms);
@@ -291,13 +215,12 @@ static void write_bar(FILE *f, const cJSON *record, const stack *passes, int cou
     fprintf(f, " %.9g\n", rest > 0 ? rest : 0);
 }
 
-static fg_status write_bars(FILE *f, const cJSON *doc, const cJSON *scene, const char *svg)
+static fg_status write_bars(FILE *f, const cJSON *doc, const cJSON *scene)
 {
     stack passes[TIMING_MAX_PASSES];
     const char *name = json_text(scene, "name");
     const int count = list_passes(doc, name, passes, TIMING_MAX_PASSES);
     const cJSON *record;
-    write_head(f, svg, 560);
     fprintf(f, "$bars << END_OF_DATA\n");
     cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
     {
@@ -312,8 +235,8 @@ static fg_status write_bars(FILE *f, const cJSON *doc, const cJSON *scene, const
         "set rmargin 24\nplot ");
     for (int i = 0; i < count; ++i) {
         fprintf(f, "$bars using %d%s lc rgb '%s' title ", i + 2, i ? "" : ":xtic(1)",
-                palette[i % FG_COUNT(palette)]);
-        quoted(f, passes[i].name);
+                plot_colour(i));
+        plot_text(f, passes[i].name);
         fprintf(f, ", ");
     }
     fprintf(f, "$bars using %d%s lc rgb '#cccccc' title 'outside passes'\n", count + 2,
@@ -336,37 +259,28 @@ static bool plottable(const cJSON *doc, const char *scene, int truth)
     return false;
 }
 
-// Writes the script by `truth` (-1: bars) and runs gnuplot on it; the SVG is what tells success.
-static fg_status plot(const fg_log *log, const char *folder, cJSON *doc, const cJSON *scene,
+// The front against `truth`; -1: bars.
+static fg_status draw(const fg_log *log, const char *folder, cJSON *doc, const cJSON *scene,
                       int truth)
 {
-    char stem[64], script[4096], svg[4096];
-    file out;
-    report_file_name(stem, sizeof stem, json_text(scene, "name"));
+    char name[64], stem[128];
+    plot p;
     const char *what = truth < 0 ? "passes" : truth_names[truth];
-    snprintf(script, sizeof script, "%s/plots/%s_%s.gp", folder, stem, what);
-    snprintf(svg, sizeof svg, "%s/plots/%s_%s.svg", folder, stem, what);
-    unlink(svg); // one from an earlier run must not stand for this
+    report_file_name(name, sizeof name, json_text(scene, "name"));
+    snprintf(stem, sizeof stem, "plots/%s_%s", name, what);
+    plot_remove(folder, stem);
     if (truth >= 0 && !plottable(doc, json_text(scene, "name"), truth)) {
         report_note(doc, "%.200s: no relative error against %s to plot", json_text(scene, "name"),
                     what);
         return FG_OK;
     }
-    fg_status status = file_begin(log, script, &out);
+    fg_status status = plot_begin(log, folder, stem, truth < 0 ? 560 : 480, &p);
     if (status != FG_OK)
         return status;
-    status = truth < 0 ? write_bars(out.stream, doc, scene, svg)
-                       : write_front(out.stream, doc, scene, truth, svg);
-    const fg_status written = file_end(log, &out, status == FG_OK);
-    if (status != FG_OK || written != FG_OK)
-        return status != FG_OK ? status : written;
-    const char *const argv[] = { "gnuplot", script, NULL };
-    const int result = run_program(argv);
-    if (result) {
-        unlink(svg);
-        note_program(doc, "gnuplot", result, "no plots");
-    }
-    return FG_OK;
+    status = truth < 0 ? write_bars(p.out.stream, doc, scene)
+                       : write_front(p.out.stream, doc, scene, truth);
+    const fg_status written = plot_end(log, &p, status == FG_OK, doc);
+    return status != FG_OK ? status : written;
 }
 
 static void draw_graphs(const char *folder, cJSON *doc, cJSON *scene)
@@ -379,11 +293,8 @@ static void draw_graphs(const char *folder, cJSON *doc, cJSON *scene)
         snprintf(svg, sizeof svg, "%s.svg", dot);
         unlink(svg);
         const char *const argv[] = { "dot", "-Tsvg", dot, "-o", svg, NULL };
-        const int result = run_program(argv);
-        if (result) {
+        if (!plot_program(argv, "no pictures of graphs", doc))
             unlink(svg);
-            note_program(doc, "dot", result, "no pictures of graphs");
-        }
     }
 }
 
@@ -394,7 +305,7 @@ fg_status report_plots(const fg_log *log, const char *folder, cJSON *doc)
     cJSON_ArrayForEach(scene, cJSON_GetObjectItem(doc, "scenes"))
     {
         for (int truth = -1; truth < REPORT_TRUTHS && status == FG_OK; ++truth)
-            status = plot(log, folder, doc, scene, truth);
+            status = draw(log, folder, doc, scene, truth);
         draw_graphs(folder, doc, scene);
     }
     return status;
