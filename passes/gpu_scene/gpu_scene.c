@@ -186,7 +186,8 @@ static fg_status create_buffers(ag_gpu_scene *s)
     s->instances = calloc((size_t) scene->instance_count + 1, sizeof *s->instances);
     s->lights = calloc(lights + 1, sizeof *s->lights);
     s->faces = calloc(faces + 1, sizeof *s->faces);
-    if (!s->instances || !s->lights || !s->faces)
+    s->face_power = calloc(faces + 1, sizeof *s->face_power);
+    if (!s->instances || !s->lights || !s->faces || !s->face_power)
         return FG_ERR_MEMORY;
     const int32_t header[4] = { s->light_count };
     if (!create_buffer(s, BUFFER_VIEW, sizeof s->view, NULL, true) ||
@@ -247,6 +248,7 @@ void ag_gpu_scene_destroy(ag_gpu_scene *s)
     free(s->instances);
     free(s->lights);
     free(s->faces);
+    free(s->face_power);
     free(s);
 }
 
@@ -331,6 +333,8 @@ fg_status ag_gpu_scene_update(ag_gpu_scene *s, const ag_view *view)
                s->lights);
         upload(s, BUFFER_FACES, 0, (size_t) s->face_count * sizeof *s->faces, s->faces);
     }
+    if (geometry || lights)
+        lights_to_power(scene, s->face_power);
     memcpy(s->origin, view->origin, sizeof s->origin);
     s->geometry_revision = scene->geometry_revision;
     s->light_revision = scene->light_revision;

@@ -82,14 +82,21 @@ struct ag_gpu_scene {
     ag_gpu_instance *instances; // scratch of update()
     ag_gpu_light *lights;
     ag_gpu_face *faces;
+    double *face_power; // of the last update
     int light_count, face_count;
 };
 
 // Faces that a light needs.
 int light_face_count(const ag_light *light);
 
+// Half the width and height of a directional light's face, m.
+void light_cross_section(const ag_scene *scene, const ag_light *light, double half[2]);
+
 // Lights and their faces in the render space of `origin`; arrays as long as the scene's.
 void lights_to_gpu(const ag_scene *scene, const double origin[3], ag_gpu_light *lights,
                    ag_gpu_face *faces);
+
+// Power of each face as ag_gpu_scene_face_power() has it, W; as long as the scene's faces.
+void lights_to_power(const ag_scene *scene, double *power);
 
 #endif // GPU_SCENE_PRIV_H

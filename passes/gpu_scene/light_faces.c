@@ -81,11 +81,9 @@ static void perspective_face(double axes[3][3], const double eye[3], int face, d
     out->forward[3] = (float) znear;
 }
 
-// Holds the box, given by its centre and half its edges, as seen along axes[2].
-static void orthographic_face(double axes[3][3], const double centre[3], const double half[3],
-                              ag_gpu_face *out)
+// Half of how far a box with edges 2 `half` reaches along each axis.
+static void extent_along(double axes[3][3], const double half[3], double extent[3])
 {
-    double extent[3], eye[3], proj[16];
     const double diagonal = sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     for (int a = 0; a < 3; a++) {
         extent[a] = 0;
@@ -94,6 +92,33 @@ static void orthographic_face(double axes[3][3], const double centre[3], const d
         // A margin for rounding; a flat scene keeps a width.
         extent[a] = extent[a] * 1.001 + 1e-4 * (diagonal > 0 ? diagonal : 1);
     }
+}
+
+// Half the edges of the scene's box; 0 of an empty one.
+static void half_edges(const ag_scene *scene, double half[3])
+{
+    for (int i = 0; i < 3; i++)
+        half[i] = scene->box_min[0] <= scene->box_max[0]
+                      ? 0.5 * (scene->box_max[i] - scene->box_min[i])
+                      : 0;
+}
+
+void light_cross_section(const ag_scene *scene, const ag_light *light, double half[2])
+{
+    double axes[3][3], edges[3], extent[3];
+    axes_of_light(light, axes);
+    half_edges(scene, edges);
+    extent_along(axes, edges, extent);
+    half[0] = extent[0];
+    half[1] = extent[1];
+}
+
+// Holds the box, given by its centre and half its edges, as seen along axes[2].
+static void orthographic_face(double axes[3][3], const double centre[3], const double half[3],
+                              ag_gpu_face *out)
+{
+    double extent[3], eye[3], proj[16];
+    extent_along(axes, half, extent);
     for (int i = 0; i < 3; i++)
         eye[i] = centre[i] - axes[2][i] * extent[2];
     ag_mat_orthographic(extent[0], extent[1], 0, 2 * extent[2], proj);
@@ -132,11 +157,10 @@ static double face_tangent(const ag_light *light, int faces)
 void lights_to_gpu(const ag_scene *scene, const double origin[3], ag_gpu_light *lights,
                    ag_gpu_face *faces)
 {
-    double centre[3] = { 0 }, half[3] = { 0 };
-    for (int i = 0; i < 3 && scene->box_min[0] <= scene->box_max[0]; i++) {
+    double centre[3] = { 0 }, half[3];
+    half_edges(scene, half);
+    for (int i = 0; i < 3 && scene->box_min[0] <= scene->box_max[0]; i++)
         centre[i] = 0.5 * (scene->box_min[i] + scene->box_max[i]) - origin[i];
-        half[i] = 0.5 * (scene->box_max[i] - scene->box_min[i]);
-    }
     const double diagonal = 2 * sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     const double znear = diagonal > 0 ? 1e-5 * diagonal : 1e-5;
     int face = 0;

@@ -17,6 +17,8 @@ static fg_status run_face(const fg_run *run, void *user)
         .integers = { face->face, pass->size },
         .integer_count = 2,
     };
+    if (!(ag_gpu_scene_face_power(pass->gpu, face->face) > 0)) // cleared, as a dark face is
+        return FG_OK;
     fg_gl_storage(run, 2, pass->scene.faces);
     fg_gl_storage(run, 3, pass->scene.lights);
     return ag_gpu_scene_draw(pass->gpu, run, &pass->scene, &draw);

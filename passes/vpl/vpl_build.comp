@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 // Makes one VPL of each block of RSM texels, by index face, row, column, and counts the
 // valid ones of each group of 256.
-// In:  position RGBA32F (w area), normal RGBA16F, flux RGBA32F, a layer a face; faces
-// Out: ag_vpl[], invalid ones with flux 0; valid VPLs of each group
+// In:  position RGBA32F (w area), normal RGBA16F, flux RGBA32F, a layer a face; faces; how many
+//      blocks each face has
+// Out: ag_vpl[], invalid ones with area 0; valid VPLs of each 256, 0 before
 //
-// WIDE: a work group makes one VPL of a large block, instead of an invocation.
+// An invocation makes the VPL of a small block, a work group that of a large one.
 //
 // A VPL sits on one texel of its block and carries the block's summed flux and area, so that no
 // energy is lost or made by choosing fewer.
@@ -32,9 +33,44 @@ layout(std430, binding = 2) readonly buffer face_buffer
 {
     ag_gpu_face faces[];
 };
-layout(location = 0) uniform ivec4 layout_; // x: blocks along an edge; y: texels along a block's
-                                            // edge; z: VPLs in all; w: 1: jittered
-layout(location = 1) uniform uint seed;
+// A row for each face with light, in their order: x face; y its first VPL; z its first work group;
+// w blocks along its edge.
+layout(std430, binding = 3) readonly buffer table_buffer
+{
+    ivec4 header; // x: rows; y: work groups; z: texels along a map's edge; w: 1: jittered
+    ivec4 rows[];
+};
+layout(location = 0) uniform uint seed;
+
+const int wide_block = 16; // texels along the edge of a block from which on a work group sums it
+
+// A block of texels.
+struct block_place {
+    uint index; // of its VPL
+    int edge;   // texels
+    ivec3 corner;
+};
+
+block_place place_of(ivec4 row, int cell)
+{
+    int edge = header.z / row.w;
+    ivec2 corner = ivec2(cell % row.w, cell / row.w) * edge;
+    return block_place(uint(row.y + cell), edge, ivec3(corner, row.x));
+}
+
+// The face that a work group works for: the last row that begins no later.
+ivec4 row_of(int group)
+{
+    int lo = 0, hi = header.x - 1;
+    while (lo < hi) {
+        int mid = (lo + hi + 1) / 2;
+        if (rows[mid].z <= group)
+            lo = mid;
+        else
+            hi = mid - 1;
+    }
+    return rows[lo];
+}
 
 // A well-mixed number of three: multiply, xor of high on low bits, twice over.
 uint mix_bits(uint x)
@@ -47,7 +83,7 @@ uint mix_bits(uint x)
 // The texel of its block that a VPL would like to sit on.
 ivec2 wanted_texel(uint index, int block)
 {
-    if (layout_.w == 0)
+    if (header.w == 0)
         return ivec2(block / 2);
     uint h = mix_bits(index * 0x9e3779b9u + mix_bits(seed));
     return ivec2(int(h & 0xffffu) * block >> 16, int(h >> 16) * block >> 16);
@@ -68,25 +104,16 @@ block_sum add_blocks(block_sum a, block_sum b)
                      second ? b.best : a.best);
 }
 
-ivec3 corner_of(uint index)
-{
-    int grid = layout_.x;
-    int face = int(index) / (grid * grid);
-    int cell = int(index) % (grid * grid);
-    return ivec3(ivec2(cell % grid, cell / grid) * layout_.y, face);
-}
-
 // Of the block's texels `first`, `first` + `step`, ...
-block_sum sum_texels(uint index, int first, int step)
+block_sum sum_texels(block_place block, int first, int step)
 {
-    int block = layout_.y;
-    ivec3 corner = corner_of(index);
-    ivec2 wanted = wanted_texel(index, block);
+    ivec2 wanted = wanted_texel(block.index, block.edge);
     block_sum sum = block_sum(vec4(0.0), 1 << 30, -1);
-    for (int i = first; i < block * block; i += step) {
-        ivec2 at = ivec2(i % block, i / block);
-        float area = texelFetch(position_map, corner + ivec3(at, 0), 0).w;
-        vec3 flux = texelFetch(flux_map, corner + ivec3(at, 0), 0).rgb;
+    for (int i = first; i < block.edge * block.edge; i += step) {
+        ivec2 at = ivec2(i % block.edge, i / block.edge);
+        ivec3 texel = block.corner + ivec3(at, 0);
+        float area = texelFetch(position_map, texel, 0).w;
+        vec3 flux = texelFetch(flux_map, texel, 0).rgb;
         if (area <= 0.0 || max(flux.r, max(flux.g, flux.b)) <= 0.0)
             continue;
         ivec2 off = at - wanted;
@@ -95,59 +122,64 @@ block_sum sum_texels(uint index, int first, int step)
     return sum;
 }
 
-ag_vpl make_vpl(uint index, block_sum sum)
+// Writes the VPL; false where it is none.
+bool store_vpl(block_place block, block_sum sum)
 {
-    if (sum.best < 0)
-        return ag_vpl(vec4(0.0), vec4(0.0), vec4(0.0));
-    int block = layout_.y;
-    ivec3 texel = corner_of(index) + ivec3(sum.best % block, sum.best / block, 0);
-    vec3 p = texelFetch(position_map, texel, 0).xyz;
-    vec3 n = normalize(texelFetch(normal_map, texel, 0).xyz);
-    ag_vpl v = ag_vpl(vec4(p, sum.flux_area.a), vec4(n, 0.0), vec4(sum.flux_area.rgb, 0.0));
-    pack_edges(faces[texel.z], p, n, v);
-    return v;
+    ag_vpl v = ag_vpl(vec4(0.0), vec4(0.0), vec4(0.0));
+    if (sum.best >= 0) {
+        ivec3 texel = block.corner + ivec3(sum.best % block.edge, sum.best / block.edge, 0);
+        vec3 p = texelFetch(position_map, texel, 0).xyz;
+        vec3 n = normalize(texelFetch(normal_map, texel, 0).xyz);
+        v = ag_vpl(vec4(p, sum.flux_area.a), vec4(n, 0.0), vec4(sum.flux_area.rgb, 0.0));
+        pack_edges(faces[texel.z], p, n, v);
+    }
+    vpls[block.index] = v;
+    return sum.best >= 0;
 }
 
-#ifdef WIDE
 shared block_sum parts[256];
 
-// A work group a VPL.
-void main()
+void make_wide(block_place block)
 {
-    uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
     uint me = gl_LocalInvocationIndex;
-    if (index >= uint(layout_.z)) // the whole group
-        return;
-    parts[me] = sum_texels(index, int(me), 256);
+    parts[me] = sum_texels(block, int(me), 256);
     for (uint half_ = 128; half_ > 0; half_ /= 2) {
         barrier();
         if (me < half_)
             parts[me] = add_blocks(parts[me], parts[me + half_]);
     }
-    if (me > 0)
-        return;
-    ag_vpl v = make_vpl(index, parts[0]);
-    vpls[index] = v;
-    if (v.position_area.w > 0.0)
-        atomicAdd(valid_in_group[index / 256], 1u); // cleared before
+    if (me == 0 && store_vpl(block, parts[0]))
+        atomicAdd(valid_in_group[block.index / 256], 1u);
 }
-#else
-shared uint valid_here;
+
+shared uint valid_here[2]; // of the 256 that the work group begins in, and of the next
+
+void make_small(ivec4 row, int first)
+{
+    uint me = gl_LocalInvocationIndex;
+    uint base = uint(row.y + first) / 256;
+    int cell = first + int(me);
+    if (me < 2)
+        valid_here[me] = 0;
+    barrier();
+    if (cell < row.w * row.w) {
+        block_place block = place_of(row, cell);
+        if (store_vpl(block, sum_texels(block, 0, 1)))
+            atomicAdd(valid_here[block.index / 256 - base], 1u);
+    }
+    barrier();
+    if (me < 2 && valid_here[me] > 0)
+        atomicAdd(valid_in_group[base + me], valid_here[me]);
+}
 
 void main()
 {
-    uint index = gl_GlobalInvocationID.x;
-    if (gl_LocalInvocationIndex == 0)
-        valid_here = 0;
-    barrier();
-    if (index < uint(layout_.z)) {
-        ag_vpl v = make_vpl(index, sum_texels(index, 0, 1));
-        vpls[index] = v;
-        if (v.position_area.w > 0.0)
-            atomicAdd(valid_here, 1u);
-    }
-    barrier();
-    if (gl_LocalInvocationIndex == 0)
-        valid_in_group[gl_WorkGroupID.x] = valid_here;
+    int group = int(gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x);
+    if (group >= header.y) // all of it
+        return;
+    ivec4 row = row_of(group);
+    if (header.z / row.w >= wide_block)
+        make_wide(place_of(row, group - row.z));
+    else
+        make_small(row, (group - row.z) * 256);
 }
-#endif

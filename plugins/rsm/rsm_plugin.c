@@ -37,7 +37,8 @@ static const gi_param params[] = {
                .quality = true,
                .sweep = vpl_sweep,
                .help =
-                   "at most this many of each map, unless all; rounded down to a power of four" },
+                   "at most this many, unless all; split over lights by their power, a power of "
+                   "four for each map; one more for each map with a share below one" },
     [CLAMP] = { .name = "clamp",
                 .type = GI_ENUM,
                 .unit = "1",
@@ -109,15 +110,6 @@ static fg_status rsm_create(const gi_env *env, const gi_value *values, void **se
     return rsm_set(r, values);
 }
 
-// The finest grid of blocks that makes no more VPLs than asked for.
-static int grid_edge(const gi_value *values)
-{
-    int edge = 1;
-    while (4 * (int64_t) edge * edge <= values[VPLS].i && (int64_t) 2 * edge <= values[RSM_SIZE].i)
-        edge *= 2;
-    return edge;
-}
-
 static void rsm_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
 {
     rsm *r = self;
@@ -130,7 +122,7 @@ static void rsm_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
     const ag_vpl_desc vpl = {
         .prefix = "rsm",
         .pattern = (ag_vpl_pattern) v[PATTERN].i,
-        .grid = grid_edge(v),
+        .budget = (int) v[VPLS].i,
         .seed = (uint32_t) v[SEED].i,
     };
     const ag_gather_desc gather = {
@@ -154,11 +146,11 @@ static int rsm_counters(void *self, gi_counter *out, int max)
     const gi_counter counters[] = {
         { "shadow_maps", 0 },
         { "samples", r->samples },
-        { "vpl_slots", r->vpl.capacity },
+        { "vpl_slots", count[1] },
         { "vpls", count[0] },
     };
     int n = 0;
-    for (; n < FG_COUNT(counters) - (known ? 0 : 1) && n < max; n++)
+    for (; n < FG_COUNT(counters) - (known ? 0 : 2) && n < max; n++)
         out[n] = counters[n];
     return n;
 }

@@ -91,6 +91,11 @@ FG_API FG_NODISCARD fg_status ag_gpu_scene_draw(const ag_gpu_scene *s, const fg_
 FG_API int ag_gpu_scene_face_count(const ag_gpu_scene *s);
 FG_API int ag_gpu_scene_light_of_face(const ag_gpu_scene *s, int face);
 
+// Power that a face's light sends through it as of the last update, W, mean of r, g and b, to 1e-3:
+// 0 only where no light goes. Whether it meets anything is not asked; directional: over the whole
+// cross-section of the face.
+FG_API double ag_gpu_scene_face_power(const ag_gpu_scene *s, int face);
+
 FG_API uint64_t ag_gpu_scene_bytes(const ag_gpu_scene *s); // device memory held
 
 FG_END

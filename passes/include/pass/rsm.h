@@ -10,7 +10,8 @@ FG_BEGIN
 // reflects. Passes "PREFIX.face0" ...
 //
 // A spot up to 60 degrees from axis to rim is one perspective face, a wider or cosine spot five,
-// a point light six, a directional light one orthographic face over the scene's box.
+// a point light six, a directional light one orthographic face over the scene's box. All are of one
+// size, the layers of one array. Faces through which no light goes are cleared and not drawn.
 //
 // Shapes: layers = faces of all lights, edge = `size`:
 //         position RGBA32F: xyz render space; w area A_j of the texel's footprint, m^2, 0: no light

@@ -16,30 +16,50 @@ typedef enum ag_vpl_pattern {
 //
 // Each block of texels makes one VPL. It sits on the texel that the pattern picks (or on the lit
 // one nearest to it) and carries the block's summed flux and area, so that the energy does not
-// depend on how many there are. Blocks without a lit texel make none.
+// depend on how many there are. Blocks without a lit texel make none; faces through which no light
+// goes have no blocks.
 //
 // Shapes: vpls: ag_vpl[capacity] (pass/vpl_shared.h), valid ones first, in the order of faces and
 //         rows; count: uvec4, x valid ones, y blocks.
 // Errors: more blocks than a storage block of the device holds, or than 65535 x 256, fail the
 //         graph: OpenGL's least is 2.8 million.
 typedef struct ag_vpl_pass {
-    fg_res position, normal, flux, faces, blocks, groups;
+    const ag_gpu_scene *gpu;
+    fg_res position, normal, flux, faces, table, blocks, groups;
     fg_res vpls, count;
     int capacity;
-    int grid, block; // blocks along a face's edge; texels along a block's edge
+    int size, face_count; // of the maps
     ag_vpl_pattern pattern;
+    int grid, budget;
     uint32_t seed;
+    int total;                         // blocks of this frame
+    int32_t rows[1 + AG_MAX_FACES][4]; // how they lie on the faces: passes/vpl/vpl_build.comp
 } ag_vpl_pass;
 
 typedef struct ag_vpl_desc {
     const char *prefix; // e.g. "rsm"
     ag_vpl_pattern pattern;
-    int grid;      // blocks along a face's edge; a divisor of the RSM's size. Ignored by ALL.
+    int grid;      // blocks along every face's edge, a divisor of the RSM's size; 0: by `budget`
+    int budget;    // > 0: VPLs of all faces together, split by ag_vpl_split()
     uint32_t seed; // of STRATIFIED
-} ag_vpl_desc;
+} ag_vpl_desc;     // ALL ignores grid and budget
 
 FG_API void ag_vpl_declare(ag_vpl_pass *pass, fg_graph *g, const ag_rsm_pass *rsm,
                            const ag_vpl_desc *desc);
+
+// Splits a budget of VPLs over faces by their power: `grid`[i] becomes the VPLs along an edge of
+// face i, a power of two up to `most`; 0 where it has no power. Returns how many VPLs that makes.
+//
+// A face whose share of the power is below that of one VPL gets one, beyond the budget: a faint
+// lamp takes none from the others. The rest get one, and then, as long as there is room, the face
+// whose VPLs carry the most power gets four times as many; of equal ones the first. One face alone
+// thus gets the largest power of four within the budget.
+FG_API int64_t ag_vpl_split(const double *power, int faces, int64_t budget, int most, int *grid);
+
+// Moves the valid VPLs of a list with holes to the front, keeping their order: pass "PREFIX.pack".
+// Reads of `pass`: blocks, ag_vpl[total], area 0: a hole; groups: uint, valid ones of each 256;
+// capacity; and, when it runs, total, at most capacity. Fills in vpls and count.
+FG_API void ag_vpl_pack_declare(ag_vpl_pass *pass, fg_graph *g, const char *prefix);
 
 FG_END
 
