@@ -12,9 +12,9 @@ uint multires_pack(int level, ivec2 at)
     return uint(level) << 28 | uint(at.y) << 14 | uint(at.x);
 }
 
-multires_texel multires_unpack(uint packed)
+multires_texel multires_unpack(uint code)
 {
-    return multires_texel(int(packed >> 28), ivec2(packed, packed >> 14) & 0x3fff);
+    return multires_texel(int(code >> 28), ivec2(code, code >> 14) & 0x3fff);
 }
 
 // In the flattened image of illumination whose finest level is of size `base`.
