@@ -15,24 +15,14 @@ static int suitable_block(fg_device *device)
 
 static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
 {
-    static const char *const defines[4][3] = {
-        { "BLOCK_X=1;BLOCK_Y=1;CLAMP=3", "BLOCK_X=2;BLOCK_Y=2;CLAMP=3",
-          "BLOCK_X=4;BLOCK_Y=4;CLAMP=3" },
-        { "BLOCK_X=1;BLOCK_Y=1;CLAMP=1", "BLOCK_X=2;BLOCK_Y=2;CLAMP=1",
-          "BLOCK_X=4;BLOCK_Y=4;CLAMP=1" },
-        { "BLOCK_X=1;BLOCK_Y=1;CLAMP=0", "BLOCK_X=2;BLOCK_Y=2;CLAMP=0",
-          "BLOCK_X=4;BLOCK_Y=4;CLAMP=0" },
-        { "BLOCK_X=1;BLOCK_Y=1;CLAMP=2", "BLOCK_X=2;BLOCK_Y=2;CLAMP=2",
-          "BLOCK_X=4;BLOCK_Y=4;CLAMP=2" },
-    };
+    static const int clamps[] = { 3, 1, 0, 2 }; // by ag_clamp, as gather.comp numbers them
+    char defines[64];
     const int block = pass->block ? pass->block : suitable_block(device);
-    const fg_gl_program_desc desc = {
-        .shaders = { &gather_comp },
-        .defines = defines[pass->clamp][block == 16  ? 2
-                                        : block == 4 ? 1
-                                                     : 0],
-    };
-    return fg_gl_program(device, &desc);
+    const int edge = block == 16 ? 4 : block == 4 ? 2 : 1;
+    snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s", edge, edge,
+             clamps[pass->clamp], pass->visibility ? ";VISIBILITY=1" : "");
+    return fg_gl_program(device,
+                         &(fg_gl_program_desc){ .shaders = { &gather_comp }, .defines = defines });
 }
 
 // VPLs of one dispatch. Mesa's software renderer leaves every loop of an invocation for good after
@@ -77,6 +67,8 @@ static fg_status run_gather(const fg_run *run, void *user)
     const int block = pass->block ? pass->block : suitable_block(device);
     if (pass->clamp == AG_CLAMP_FOOTPRINT)
         glProgramUniform1i(program, 1, block);
+    if (pass->visibility)
+        ag_ism_bind(run, pass->visibility);
     glUseProgram(program);
     dispatch_spans(run, pass, program, block);
     return FG_OK;
@@ -97,6 +89,7 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
         .clamp = desc->clamp,
         .clamp_d2 = desc->clamp_d2,
         .block = desc->block,
+        .visibility = desc->visibility,
     };
     if (desc->block != 0 && desc->block != 1 && desc->block != 4 && desc->block != 16) {
         fg_fail(g, "%s: block is %d, must be 1, 4 or 16", desc->prefix, desc->block);
@@ -104,6 +97,7 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
     }
     snprintf(name, sizeof name, "%s.gather", desc->prefix);
     snprintf(texture, sizeof texture, "%s.indirect", desc->prefix);
+    const ag_ism_pass unshadowed = { 0 }, *ism = desc->visibility ? desc->visibility : &unshadowed;
     pass->out = fg_texture(g, texture, &(fg_tex_desc){ .format = FG_RGBA32F });
     const fg_pass_desc gather = {
         .name = name,
@@ -114,6 +108,8 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
             { pass->normal },
             { pass->vpls },
             { pass->count },
+            { ism->maps, .optional = true },
+            { ism->eyes, .optional = true },
         },
         .writes = { { pass->out, FG_USE_IMAGE, FG_LOAD_DISCARD } },
         .run = run_gather,

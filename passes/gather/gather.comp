@@ -1,9 +1,10 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Irradiance of every pixel from all VPLs, without visibility.
+// Irradiance of every pixel from all VPLs.
 // In:  position RGBA32F, normal RGBA16F; ag_vpl[], count
 // Out: E / pi RGBA32F, W/(m^2 sr); a 1
 // BLOCK_X, BLOCK_Y: receivers of one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint.
+// VISIBILITY: each VPL's light is shadowed by its imperfect shadow map.
 //
 // E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
 // Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5.
@@ -12,6 +13,9 @@
 //         polygons; a disc seen from beside its rim is far off.
 #include "passes/include/pass/view_shared.h"
 #include "passes/include/pass/vpl_shared.h"
+#ifdef VISIBILITY
+#include "passes/ism/visibility.glsl"
+#endif
 
 #ifndef BLOCK_X
 #define BLOCK_X 2
@@ -77,6 +81,9 @@ void correct_near(int start, uvec2 near, float unit)
             vec3 n = texelFetch(normal_map, at, 0).xyz;
             n /= max(length(n), 1e-6);
             float share = patch_share(d, n, vpls[j], area, cos_j);
+#ifdef VISIBILITY
+            share *= ism_visibility(ism_map_of(j, int(count.x)), q - d, n);
+#endif
             if (all(lessThan(receiver(i), view.size.xy))) {
                 vec4 old = imageLoad(indirect, at);
                 imageStore(indirect, at, old + vec4(vpls[j].flux.rgb * share, 0.0));
@@ -125,6 +132,9 @@ void main()
 #if CLAMP == 3
             bool any_near = false;
 #endif
+#ifdef VISIBILITY
+            int map = ism_map_of(j, int(count.x));
+#endif
             for (int i = 0; i < block; i++) {
                 vec3 d = q - p[i];
                 float d2 = dot(d, d);
@@ -143,6 +153,10 @@ void main()
                 bool is_near = patch_is_near(d2, cos_j, area);
                 share = is_near ? 0.0 : share;
                 any_near = any_near || is_near;
+#endif
+#ifdef VISIBILITY
+                if (share > 0.0)
+                    share *= ism_visibility(map, p[i], n[i]);
 #endif
                 part[i] += flux * share;
             }

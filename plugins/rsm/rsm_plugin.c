@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gi/plugin.h>
+#include <gi/visibility.h>
 #include <pass/gather.h>
 #include <pass/readback.h>
 
@@ -11,7 +12,19 @@ static const char *const clamp_names[] = { "footprint", "disc", "none", "constan
 static const char *const solid_angle_names[] = { "exact", "equal", NULL };
 static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, 16384, (double) NAN };
 
-enum { RSM_SIZE, PATTERN, VPLS, CLAMP, CLAMP_D2, SOLID_ANGLE, SEED, PARAM_COUNT };
+enum {
+    RSM_SIZE,
+    PATTERN,
+    VPLS,
+    CLAMP,
+    CLAMP_D2,
+    SOLID_ANGLE,
+    SEED,
+    VISIBILITY,
+    ISM_SIZE,
+    ISM_POINTS,
+    PARAM_COUNT
+};
 
 static const gi_param params[] = {
     [RSM_SIZE] = { .name = "rsm_size",
@@ -66,6 +79,7 @@ static const gi_param params[] = {
                .max = 4294967295.0,
                .def = 1,
                .help = "of the stratified pattern" },
+    GI_VISIBILITY_PARAMS(VISIBILITY, ISM_SIZE, ISM_POINTS),
     { .name = NULL },
 };
 
@@ -74,6 +88,8 @@ typedef struct rsm {
     gi_value values[PARAM_COUNT];
     ag_rsm_pass map;
     ag_vpl_pass vpl;
+    ag_ism_samples *points; // NULL until visibility wants them
+    ag_ism_pass ism;
     ag_gather_pass gather;
     ag_readback count;
     int samples; // pixels that gather
@@ -84,7 +100,10 @@ static fg_status rsm_set(void *self, const gi_value *values)
     rsm *r = self;
     for (int i = 0; i < PARAM_COUNT; i++)
         r->values[i] = values[i];
-    return FG_OK;
+    if (values[VISIBILITY].i != GI_VISIBILITY_ISM || r->points)
+        return FG_OK;
+    const ag_ism_samples_desc samples = { .log = r->env.log, .scene = r->env.scene };
+    return ag_ism_samples_create(&samples, &r->points);
 }
 
 static void rsm_destroy(void *self)
@@ -93,6 +112,7 @@ static void rsm_destroy(void *self)
     if (!r)
         return;
     ag_readback_finish(&r->count);
+    ag_ism_samples_destroy(r->points);
     free(r);
 }
 
@@ -106,8 +126,13 @@ static fg_status rsm_create(const gi_env *env, const gi_value *values, void **se
         return FG_ERR_MEMORY;
     }
     r->env = *env;
+    const fg_status status = rsm_set(r, values);
+    if (status) {
+        rsm_destroy(r);
+        return status;
+    }
     *self = r;
-    return rsm_set(r, values);
+    return FG_OK;
 }
 
 static void rsm_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
@@ -129,9 +154,21 @@ static void rsm_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
         .prefix = "rsm",
         .clamp = (ag_clamp) v[CLAMP].i,
         .clamp_d2 = (float) v[CLAMP_D2].f,
+        .visibility = v[VISIBILITY].i == GI_VISIBILITY_ISM ? &r->ism : NULL,
     };
     ag_rsm_declare(&r->map, g, r->env.gpu_scene, &in->scene, &map);
     ag_vpl_declare(&r->vpl, g, &r->map, &vpl);
+    if (gather.visibility) {
+        const ag_ism_desc ism = {
+            .prefix = "rsm",
+            .vpls = r->vpl.vpls,
+            .count = r->vpl.count,
+            .capacity = r->vpl.capacity,
+            .size = (int) v[ISM_SIZE].i,
+            .points = (int) v[ISM_POINTS].i,
+        };
+        ag_ism_declare(&r->ism, g, r->points, &in->scene, &ism);
+    }
     ag_gather_declare(&r->gather, g, &in->scene, &in->gbuffer, &r->vpl, &gather);
     ag_readback_declare(&r->count, g, "rsm.count_vpls", r->vpl.count, 4 * sizeof(uint32_t));
     out->indirect = r->gather.out;
@@ -144,7 +181,7 @@ static int rsm_counters(void *self, gi_counter *out, int max)
     uint32_t count[4] = { 0 };
     const bool known = ag_readback_latest(&r->count, count);
     const gi_counter counters[] = {
-        { "shadow_maps", 0 },
+        { "shadow_maps", r->values[VISIBILITY].i ? r->ism.map_count : 0 },
         { "samples", r->samples },
         { "vpl_slots", count[1] },
         { "vpls", count[0] },
@@ -160,7 +197,8 @@ static const gi_plugin plugin = {
     .name = "rsm",
     .source = "Dachsbacher, Stamminger. Reflective Shadow Maps. I3D 2005; as gathered in Nichols, "
               "Shopf, Wyman. Hierarchical Image-Space Radiosity. EGSR 2009",
-    .summary = "one diffuse bounce, gathered at every pixel from every VPL; no indirect visibility",
+    .summary = "one diffuse bounce, gathered at every pixel from every VPL; indirect visibility by "
+               "imperfect shadow maps, off by default",
     .params = params,
     .needs = AG_FEATURE_LIGHT | AG_FEATURE_GEOMETRY,
     .create = rsm_create,

@@ -2,6 +2,7 @@
 #ifndef PASS_GATHER_H
 #define PASS_GATHER_H
 
+#include <pass/ism.h>
 #include <pass/vpl.h>
 
 FG_BEGIN
@@ -15,9 +16,11 @@ typedef enum ag_clamp {
     AG_CLAMP_CONSTANT,      // pi max(d^2, clamp_d2)
 } ag_clamp;
 
-// Sums all VPLs at every pixel, none of them shadowed: pass "PREFIX.gather".
+// Sums all VPLs at every pixel: pass "PREFIX.gather".
 //
-//     E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
+//     E_i = sum_j V_ij rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
+//
+// V_ij is 1 for all, or what imperfect shadow maps say.
 //
 // Shapes: out RGBA32F of the frame's size; a 1. Left out where there is no light or no geometry.
 // Units:  E / pi, W/(m^2 sr).
@@ -30,13 +33,16 @@ typedef struct ag_gather_pass {
     float clamp_d2;
     int block;    // receivers of one invocation: 1, 4 or 16
     int capacity; // of `vpls`
+    const ag_ism_pass *visibility;
 } ag_gather_pass;
 
 typedef struct ag_gather_desc {
     const char *prefix;
     ag_clamp clamp;
-    float clamp_d2; // m^2, > 0; CONSTANT only
-    int block;      // 1, 4 or 16; 0: what suits the device (16 on a CPU, else 4)
+    float clamp_d2;                // m^2, > 0; CONSTANT only
+    int block;                     // 1, 4 or 16; 0: what suits the device (16 on a CPU, else 4)
+    const ag_ism_pass *visibility; // maps of these VPLs, declared before; borrowed while the graph
+                                   // runs. NULL: nothing shadows them
 } ag_gather_desc;
 
 FG_API void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,

@@ -1,0 +1,185 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Imperfect shadow maps: a work group splats a subset of the points into the map of one VPL, fills
+// what they leave open, and writes it.
+// In:  ag_ism_point[], ag_vpl[], count
+// Out: maps R32F, a layer each: 1 / distance in scene units, 0: nothing; ag_ism_eye[]
+//
+// Source: Ritschel et al. 2008, sec. 4.2 and 4.3; pull-push after Marroquim, Kraus, Cavalcanti,
+//         Efficient Point-Based Rendering Using Image Reconstruction, PBG 2007.
+//         Departs from it: a splat is the point's disc in its triangle's plane, not a box of one
+//         depth; reciprocal distances, which are linear over a plane, so that the mean of a
+//         plane's texels is that plane's.
+#include "passes/include/pass/ism_shared.h"
+#include "passes/include/pass/view_shared.h"
+#include "passes/include/pass/vpl_shared.h"
+#include "passes/ism/paraboloid.glsl"
+
+const int group = 256;
+const int max_size = 64;
+const float pi = 3.14159265358979;
+// A disc has so many times the area that its point stands for: points lie as evenly as a grid's, and
+// from pi / 2 on discs on a square grid leave nothing open.
+const float overlap = 2.0;
+// Discs near the eye are cut to so many texels about their middle: 32768 / 256 points of 17 x 17 stay
+// below the 65535 rounds that Mesa's software renderer gives all loops of an invocation.
+const int reach = 8;
+// A plane seen flatter than this (sine) has no width in the map; the eye's own is one.
+const float flattest = 0.01;
+// Levels of the pyramid: holes up to this many times doubled texels are closed.
+const int levels = 3;
+// Reciprocal distances are one surface's within this ratio.
+const float same_surface = 0.85;
+
+layout(local_size_x = group) in;
+
+layout(std430, binding = 0) readonly buffer point_buffer
+{
+    ag_ism_point points[];
+};
+layout(std430, binding = 1) readonly buffer vpl_buffer
+{
+    ag_vpl vpls[];
+};
+layout(std430, binding = 2) readonly buffer count_buffer
+{
+    uvec4 count;
+};
+layout(std430, binding = 3) writeonly buffer eye_buffer
+{
+    ag_ism_eye eyes[];
+};
+layout(location = 0) uniform ivec4 layout_; // x: size; y: maps; z: points of one map; w: subsets
+layout(binding = 0, r32f) writeonly uniform image2DArray maps;
+
+// The map and its pyramid: bits of reciprocal distances, which order as the numbers do.
+shared uint depths[max_size * max_size * 4 / 3 + 1];
+
+ag_ism_eye make_eye(int map)
+{
+    int total = int(count.x);
+    int first = ism_first_of(map, total, layout_.y), past = ism_first_of(map + 1, total, layout_.y);
+    ag_vpl v = vpls[(first + past) / 2];
+    vec3 t, b;
+    vpl_frame(v.normal.xyz, t, b);
+    return ag_ism_eye(vec4(v.position_area.xyz * view.scale.x, 0.0), vec4(t, 0.0), vec4(b, 0.0),
+                      vec4(v.normal.xyz, 0.0));
+}
+
+// The disc of a point at `p` with normal `n` and radius `radius`, all as the eye sees it.
+void splat(vec3 p, vec3 n, float radius)
+{
+    int size = layout_.x;
+    float r = length(p), height = dot(n, p);
+    if (p.z <= 0.0 || abs(height) < flattest * r)
+        return;
+    vec2 middle = paraboloid_texel(p, r, size);
+    float wide = min(0.5 * float(size) * radius / (r + p.z) * (1.0 + radius / r), float(reach));
+    ivec2 at = ivec2(floor(middle)), low = ivec2(floor(middle - wide)),
+          high = ivec2(floor(middle + wide));
+    low = clamp(low, ivec2(0), at);
+    high = clamp(high, at, ivec2(size - 1));
+    at = min(at, size - 1);
+    for (int i = 0, width = high.x - low.x + 1; i < width * (high.y - low.y + 1); i++) {
+        ivec2 texel = low + ivec2(i % width, i / width);
+        vec3 ray = paraboloid_ray(texel, size);
+        float w = dot(n, ray) / height; // 1 / distance of the plane
+        vec3 off = ray - p * w;         // to the disc's middle, times w
+        bool inside = w > 0.0 && dot(off, off) <= radius * radius * w * w;
+        if (!inside)
+            continue;
+        uint bits = floatBitsToUint(min(w, 1e12));
+        if (bits > depths[texel.y * size + texel.x])
+            atomicMax(depths[texel.y * size + texel.x], bits);
+    }
+}
+
+void splat_all(int map, ag_ism_eye eye)
+{
+    int subset = (map + map / layout_.w) % layout_.w;
+    float to_radius = sqrt(overlap / pi * float(layout_.w));
+    for (int i = int(gl_LocalInvocationIndex); i < layout_.z; i += group) {
+        vec4 at = points[subset * layout_.z + i].position_area;
+        vec3 n = points[subset * layout_.z + i].normal.xyz, d = at.xyz - eye.position.xyz;
+        if (at.w <= 0.0)
+            continue;
+        splat(vec3(dot(d, eye.tangent.xyz), dot(d, eye.bitangent.xyz), dot(d, eye.normal.xyz)),
+              vec3(dot(n, eye.tangent.xyz), dot(n, eye.bitangent.xyz), dot(n, eye.normal.xyz)),
+              to_radius * sqrt(at.w));
+    }
+}
+
+float depth_at(int base, int size, ivec2 at)
+{
+    return uintBitsToFloat(depths[base + at.y * size + at.x]);
+}
+
+// A coarser texel is the mean of those below that are near the nearest of them.
+void pull(int from, int to, int size)
+{
+    for (int i = int(gl_LocalInvocationIndex); i < size * size / 4; i += group) {
+        ivec2 at = 2 * ivec2(i % (size / 2), i / (size / 2));
+        vec4 w = vec4(depth_at(from, size, at), depth_at(from, size, at + ivec2(1, 0)),
+                      depth_at(from, size, at + ivec2(0, 1)), depth_at(from, size, at + ivec2(1)));
+        float nearest = max(max(w.x, w.y), max(w.z, w.w));
+        vec4 same = vec4(greaterThanEqual(w, vec4(max(same_surface * nearest, 1e-30))));
+        depths[to + i] = floatBitsToUint(dot(w, same) / max(dot(same, vec4(1.0)), 1.0));
+    }
+}
+
+// A hole is the coarser level's, between the four texels about it as far as they are near the one
+// that it lies in.
+void push(int from, int to, int size)
+{
+    int coarse = size / 2;
+    for (int i = int(gl_LocalInvocationIndex); i < size * size; i += group) {
+        if (depths[to + i] != 0u)
+            continue;
+        ivec2 at = ivec2(i % size, i / size), own = at / 2;
+        ivec2 side = clamp(own + 2 * (at & 1) - 1, ivec2(0), ivec2(coarse - 1));
+        vec4 w = vec4(depth_at(from, coarse, own), depth_at(from, coarse, ivec2(side.x, own.y)),
+                      depth_at(from, coarse, ivec2(own.x, side.y)), depth_at(from, coarse, side));
+        vec4 same = vec4(greaterThanEqual(w, vec4(same_surface * w.x))) *
+                    vec4(lessThanEqual(w * same_surface, vec4(w.x))) * vec4(9.0, 3.0, 3.0, 1.0);
+        if (w.x > 0.0)
+            depths[to + i] = floatBitsToUint(dot(w, same) / dot(same, vec4(1.0)));
+    }
+}
+
+void fill_holes()
+{
+    int base = 0, size = layout_.x;
+    for (int l = 0; l < levels; l++) {
+        pull(base, base + size * size, size);
+        base += size * size;
+        size /= 2;
+        barrier();
+    }
+    for (int l = 0; l < levels; l++) {
+        size *= 2;
+        push(base, base - size * size, size);
+        base -= size * size;
+        barrier();
+    }
+}
+
+void main()
+{
+    int map = int(gl_WorkGroupID.x), size = layout_.x, me = int(gl_LocalInvocationIndex);
+    bool used = map < min(int(count.x), layout_.y); // the same for the whole group
+    for (int i = me; i < size * size; i += group)
+        depths[i] = 0u;
+    barrier();
+    ag_ism_eye eye = ag_ism_eye(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    if (used) {
+        eye = make_eye(map);
+        splat_all(map, eye);
+    }
+    barrier();
+    if (used)
+        fill_holes();
+    if (me == 0)
+        eyes[map] = eye;
+    for (int i = me; i < size * size; i += group)
+        imageStore(maps, ivec3(i % size, i / size, map), vec4(uintBitsToFloat(depths[i])));
+}
