@@ -17,7 +17,13 @@ typedef enum exit_code {
     EXIT_INPUT = 3,
 } exit_code;
 
-enum { CLI_MAX_GI = 32, CLI_MAX_SET = 64, CLI_MAX_LIGHTS = 16, CLI_MAX_SIZE = 32768 };
+enum {
+    CLI_MAX_GI = 32,
+    CLI_MAX_SET = 64,
+    CLI_MAX_LIGHTS = 16,
+    CLI_MAX_STUDIES = 16,
+    CLI_MAX_SIZE = 32768
+};
 
 typedef struct options {
     const char *const *operands; // what stands without a name; borrowed from argv
@@ -26,6 +32,8 @@ typedef struct options {
     int gi_count;
     const char *set[CLI_MAX_SET]; // "key=value" or "plugin.key=value"
     int set_count;
+    const char *study[CLI_MAX_STUDIES];
+    int study_count;
     int width, height;                            // 0: not given
     int frame;                                    // -1: not given
     int frames;                                   // 0: not given

@@ -54,9 +54,12 @@ const command command_report = {
         "quick: 256x256, each quality parameter alone over its cheapest values. full: 1024x1024,\n"
         "all combinations of quality parameters (beyond 200: each alone). --set fixes a "
         "parameter.\n"
+        "full runs the studies too, figures of the papers drawn again: time and error over a\n"
+        "parameter, cost by stage. --study NAME runs that one and no sweep; a wrong name lists "
+        "them.\n"
         "report --merge DIR... -o DIR joins what --shard I/N runs have written.",
     .option_names = OPTIONS_SCENE OPTIONS_GPU
-    " --gi --set --size --seed --budget --spp --shard --merge --output ",
+    " --gi --set --size --seed --budget --study --spp --shard --merge --output ",
     .max_operands = -1,
     .run = run,
 };

@@ -236,10 +236,10 @@ static bool has_key(const gi_plugin *p, const char *assignment)
     return false;
 }
 
-static bool known_name(const gi_registry *registry, const char *name)
+bool host_has_plugin(const host *h, const char *name)
 {
     const char *other;
-    for (int i = 0; (other = gi_name((gi_registry *) registry, i)); ++i)
+    for (int i = 0; (other = gi_name(h->registry, i)); ++i)
         if (!strcmp(other, name))
             return true;
     return false;
@@ -250,7 +250,7 @@ int host_setting(host *h, const char *name, setting *out)
     *out = (setting){ 0 };
     if (!name || !strcmp(name, "none"))
         return EXIT_DONE;
-    if (!known_name(h->registry, name))
+    if (!host_has_plugin(h, name))
         return cli_fail(h->c, EXIT_USAGE,
                         "--gi: there is no plugin '%s'; 'afterglow plugins' lists them", name);
     const gi_plugin *plugin = gi_find(h->registry, name);

@@ -47,6 +47,7 @@ int host_open_scene(host *h, const char *name);
 void host_take_scene(host *h, ag_scene *scene, const char *name);
 int host_open_device(host *h);
 
+bool host_has_plugin(const host *h, const char *name); // whether there is one; it may not load
 // The plugin `name` with the values that --set gives. An unknown name is wrong usage; a module
 // that is there and was refused leaves plugin NULL, with a warning: direct light goes on alone.
 int host_setting(host *h, const char *name, setting *out);

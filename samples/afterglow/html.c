@@ -3,6 +3,7 @@
 
 #include "file.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -19,6 +20,20 @@ void html_text(FILE *f, const char *text)
         case '"': fputs("&quot;", f); break;
         default: fputc(*text, f); break;
         }
+}
+
+void html_number(FILE *f, double value, const char *format)
+{
+    char text[64];
+    snprintf(text, sizeof text, format, value);
+    fprintf(f, "<td>%s</td>", isfinite(value) ? text : "&ndash;");
+}
+
+void html_cell(FILE *f, const char *text)
+{
+    fputs("<td class=\"text\">", f);
+    html_text(f, text);
+    fputs("</td>", f);
 }
 
 static void base64(FILE *f, const unsigned char *data, size_t size)

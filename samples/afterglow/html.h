@@ -9,6 +9,10 @@
 
 void html_text(FILE *f, const char *text); // escaped, also for attributes in double quotes
 
+// <td>: a number, or a dash where it is not finite; text, to the left.
+void html_number(FILE *f, double value, const char *format);
+void html_cell(FILE *f, const char *text);
+
 // The file as data:TYPE;base64,... Errors as file_read().
 FG_NODISCARD fg_status html_data(FILE *f, const fg_log *log, const char *path, const char *type);
 

@@ -119,6 +119,7 @@ typedef enum option_id {
     OPT_FORMAT,
     OPT_FILTER,
     OPT_BUDGET,
+    OPT_STUDY,
     OPT_OUTPUT,
     OPT_STATS,
     OPT_PLUGIN_DIR,
@@ -170,6 +171,8 @@ static const option table[] = {
     { OPT_FILTER, "--filter", NULL, "F", "",
       "point: pixel centres, as a rasteriser samples; or box" },
     { OPT_BUDGET, "--budget", NULL, "B", "", "quick (256x256, a handful of settings) or full" },
+    { OPT_STUDY, "--study", NULL, "NAME", "a name, at most 16 times",
+      "this study of the full report alone, at either budget; may be given again" },
     { OPT_OUTPUT, "--output", "-o", "FILE", "",
       "where the result goes; FILE is a folder where there are several" },
     { OPT_STATS, "--stats", NULL, "FILE", "",
@@ -260,6 +263,7 @@ static bool apply_word(options *o, option_id id, const char *v)
     switch (id) {
     case OPT_GI: return add_word(o->gi, &o->gi_count, CLI_MAX_GI, v);
     case OPT_SET: return add_word(o->set, &o->set_count, CLI_MAX_SET, v);
+    case OPT_STUDY: return add_word(o->study, &o->study_count, CLI_MAX_STUDIES, v);
     case OPT_LAYER: return set_text(v, &o->layer);
     case OPT_FORMAT: return set_text(v, &o->format);
     case OPT_FILTER: return set_text(v, &o->filter);

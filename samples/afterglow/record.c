@@ -74,26 +74,32 @@ static void take_passes(timing *t, const fg_graph *g)
     }
 }
 
+fg_status timing_frame(timing *t, fg_device *device, renderer *r, double time)
+{
+    if (t->count >= t->capacity)
+        return FG_OK;
+    fg_status status = fg_gl_finish(device);
+    const double start = now_ms();
+    if (status == FG_OK)
+        status = renderer_frame(r, time);
+    const double submitted = now_ms();
+    if (status == FG_OK)
+        status = fg_gl_finish(device);
+    if (status != FG_OK)
+        return status;
+    t->frame[t->count] = now_ms() - start;
+    t->cpu[t->count] = submitted - start;
+    take_passes(t, renderer_graph(r));
+    ++t->count;
+    return FG_OK;
+}
+
 fg_status timing_run(timing *t, fg_device *device, renderer *r, int frame, int frames)
 {
-    for (int i = 0; i <= frames && t->count < t->capacity; ++i) {
-        fg_status status = fg_gl_finish(device);
-        const double start = now_ms();
-        if (status == FG_OK)
-            status = renderer_frame(r, (frame + 1 + i) / 60.0);
-        const double submitted = now_ms();
-        if (status == FG_OK)
-            status = fg_gl_finish(device);
-        if (status != FG_OK)
-            return status;
-        if (i == 0)
-            continue; // warm-up
-        t->frame[t->count] = now_ms() - start;
-        t->cpu[t->count] = submitted - start;
-        take_passes(t, renderer_graph(r));
-        ++t->count;
-    }
-    return FG_OK;
+    fg_status status = renderer_frame(r, (frame + 1) / 60.0); // warm-up
+    for (int i = 1; i <= frames && status == FG_OK; ++i)
+        status = timing_frame(t, device, r, (frame + 1 + i) / 60.0);
+    return status;
 }
 
 static int compare_doubles(const void *a, const void *b)

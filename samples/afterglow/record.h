@@ -22,6 +22,8 @@ typedef struct timing {
 FG_NODISCARD fg_status timing_create(int capacity, timing *out);
 void timing_finish(timing *t); // accepts a zeroed one
 
+// One frame at `time`, bracketed by waits for the GPU; nothing where there is no room.
+FG_NODISCARD fg_status timing_frame(timing *t, fg_device *device, renderer *r, double time);
 // Runs `frames` frames of the animation after `frame`, 1/60 s apart, each bracketed by waits for
 // the GPU. One more goes before them to warm up.
 FG_NODISCARD fg_status timing_run(timing *t, fg_device *device, renderer *r, int frame, int frames);

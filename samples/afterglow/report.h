@@ -14,7 +14,8 @@
 //                   "graphs": [ { "plugin", "dot" } ] } ],
 //     "records": [ run records with "index", "label", "errors": [one per reference, with "noise"
 //     and "rmse_rms_corrected"],
-//                  "images": { "result", "error": [one per reference] } } ] }
+//                  "images": { "result", "error": [one per reference] } } ],
+//     "studies": [ see study.h ] }
 //
 // File names in it are relative to the report's folder.
 
@@ -57,6 +58,8 @@ typedef struct truths_desc {
 // Renders them and writes their pictures. Exit codes from here on.
 int truths_render(host *h, const truths_desc *desc, truths *out);
 void truths_finish(truths *t);
+// The metrics of a picture against a truth, with "noise" and "rmse_rms_corrected".
+cJSON *truth_error(const truths *t, int truth, const metrics *e);
 
 int report_measure(cli *c, const options *o, cJSON **doc);
 int report_merge(cli *c, const options *o, cJSON **doc);

@@ -5,6 +5,7 @@
 #include "html.h"
 #include "report_css.h"
 #include "report_js.h"
+#include "study.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,20 +22,6 @@ typedef struct page {
 
 // ---- tables ----------------------------------------------------------------------------------
 
-static void number_cell(FILE *f, double value, const char *format)
-{
-    char text[64];
-    snprintf(text, sizeof text, format, value);
-    fprintf(f, "<td>%s</td>", isfinite(value) ? text : "&ndash;");
-}
-
-static void text_cell(FILE *f, const char *text)
-{
-    fputs("<td class=\"text\">", f);
-    html_text(f, text);
-    fputs("</td>", f);
-}
-
 static void write_truths(const page *p)
 {
     const cJSON *entry;
@@ -45,11 +32,11 @@ static void write_truths(const page *p)
     cJSON_ArrayForEach(entry, cJSON_GetObjectItem(p->scene, "references"))
     {
         fputs("<tr>", p->f);
-        text_cell(p->f, json_text(entry, "name"));
-        number_cell(p->f, json_number(entry, "spp"), "%.0f");
-        number_cell(p->f, json_number(entry, "mean"), "%.4g");
-        number_cell(p->f, json_number(entry, "rms"), "%.4g");
-        number_cell(p->f, json_number(entry, "noise") / json_number(entry, "rms"), "%.4f");
+        html_cell(p->f, json_text(entry, "name"));
+        html_number(p->f, json_number(entry, "spp"), "%.0f");
+        html_number(p->f, json_number(entry, "mean"), "%.4g");
+        html_number(p->f, json_number(entry, "rms"), "%.4g");
+        html_number(p->f, json_number(entry, "noise") / json_number(entry, "rms"), "%.4f");
         fputs("</tr>\n", p->f);
     }
     fputs("</tbody></table></div>\n", p->f);
@@ -61,22 +48,22 @@ static void write_row(const page *p, const cJSON *record)
     const cJSON *memory = cJSON_GetObjectItem(record, "memory"), *error;
     const double mebi = 1024.0 * 1024.0;
     fprintf(p->f, "<tr%s>", report_on_front(p->doc, record, 0) ? " class=\"front\"" : "");
-    text_cell(p->f, json_text(record, "plugin"));
-    text_cell(p->f, json_text(record, "label"));
-    number_cell(p->f, json_number(frame, "median"), "%.2f");
-    number_cell(p->f, json_number(frame, "p99"), "%.2f");
-    number_cell(p->f, json_number(frame, "min"), "%.2f");
+    html_cell(p->f, json_text(record, "plugin"));
+    html_cell(p->f, json_text(record, "label"));
+    html_number(p->f, json_number(frame, "median"), "%.2f");
+    html_number(p->f, json_number(frame, "p99"), "%.2f");
+    html_number(p->f, json_number(frame, "min"), "%.2f");
     cJSON_ArrayForEach(error, cJSON_GetObjectItem(record, "errors"))
     {
-        number_cell(p->f, json_number(error, "rmse_rms_corrected"), "%.4f");
-        number_cell(p->f, json_number(error, "energy_ratio"), "%.3f");
+        html_number(p->f, json_number(error, "rmse_rms_corrected"), "%.4f");
+        html_number(p->f, json_number(error, "energy_ratio"), "%.3f");
     }
     error = cJSON_GetObjectItem(record, "error");
-    number_cell(p->f, json_number(error, "relmse"), "%.4g");
-    number_cell(p->f, json_number(error, "smape"), "%.4f");
-    number_cell(p->f, json_number(error, "nonfinite"), "%.0f");
-    number_cell(p->f, json_number(memory, "transient_bytes") / mebi, "%.1f");
-    number_cell(p->f, json_number(memory, "unshared_bytes") / mebi, "%.1f");
+    html_number(p->f, json_number(error, "relmse"), "%.4g");
+    html_number(p->f, json_number(error, "smape"), "%.4f");
+    html_number(p->f, json_number(error, "nonfinite"), "%.0f");
+    html_number(p->f, json_number(memory, "transient_bytes") / mebi, "%.1f");
+    html_number(p->f, json_number(memory, "unshared_bytes") / mebi, "%.1f");
     fputs("</tr>\n", p->f);
 }
 
@@ -347,18 +334,30 @@ static void write_scene_head(const page *p)
     }
 }
 
-static fg_status write_scene(page *p, const cJSON *scene, int number)
+// The sweep of quality parameters.
+static fg_status write_settings(const page *p)
 {
-    p->scene = scene;
-    p->scene_name = json_text(scene, "name");
-    p->scene_number = number;
-    write_scene_head(p);
-    write_truths(p);
     fg_status status = write_plots(p);
     write_table(p);
     if (status == FG_OK)
         status = write_cards(p);
     return status == FG_OK ? write_graphs(p) : status;
+}
+
+static fg_status write_scene(page *p, const cJSON *scene, int number)
+{
+    char prefix[32];
+    p->scene = scene;
+    p->scene_name = json_text(scene, "name");
+    p->scene_number = number;
+    write_scene_head(p);
+    if (cJSON_GetArraySize(cJSON_GetObjectItem(scene, "references")))
+        write_truths(p);
+    snprintf(prefix, sizeof prefix, "s%d-", number);
+    fg_status status = count_of_scene(p) ? write_settings(p) : FG_OK;
+    if (status != FG_OK)
+        return status;
+    return study_html(p->f, p->log, p->folder, p->doc, p->scene_name, prefix);
 }
 
 fg_status report_html(const fg_log *log, const char *folder, const cJSON *doc)

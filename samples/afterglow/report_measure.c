@@ -3,6 +3,7 @@
 
 #include "batch.h"
 #include "file.h"
+#include "study.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,6 +20,8 @@ typedef struct measure {
     int width, height;
     cJSON *doc, *scene; // the document, and the entry of the scene at hand
     const job_list *jobs;
+    const setting *plugins;
+    int plugin_count;
     const truths *truths;
     batch batch; // of the scene at hand
     int scene_number;
@@ -60,20 +63,6 @@ static fg_status write_images(measure *m, image *result, const truths *t, int in
     return status == FG_OK ? image_write(&m->h.c->log, path, result, IMAGE_LIGHT) : status;
 }
 
-// The noise of the truth is independent of the result and of the truth: its square is in the
-// squares of both the error and the truth's RMS, and is taken out of both.
-static cJSON *error_json(const truths *t, int truth, const metrics *e)
-{
-    const double noise = t->noise[truth] * t->noise[truth];
-    const double square = e->rmse * e->rmse - noise, rms = t->rms[truth] * t->rms[truth] - noise;
-    const double corrected = square > 0 && rms > 0 ? sqrt(square / rms) : (double) NAN;
-    cJSON *json = record_error(truth_names[truth], e);
-    cJSON_AddNumberToObject(json, "noise", t->noise[truth]);
-    cJSON_AddItemToObject(json, "rmse_rms_corrected",
-                          isfinite(corrected) ? cJSON_CreateNumber(corrected) : cJSON_CreateNull());
-    return json;
-}
-
 // Errors against every truth, and the pictures.
 static fg_status add_error(measure *m, image *result, const truths *t, int index, cJSON *record)
 {
@@ -83,7 +72,7 @@ static fg_status add_error(measure *m, image *result, const truths *t, int index
         metrics e;
         status = metrics_compare(&m->h.c->log, result, &t->picture[i], &e);
         if (status == FG_OK)
-            cJSON_AddItemToArray(errors, error_json(t, i, &e));
+            cJSON_AddItemToArray(errors, truth_error(t, i, &e));
     }
     if (status == FG_OK)
         cJSON_AddItemToObject(record, "error", cJSON_Duplicate(cJSON_GetArrayItem(errors, 0), 1));
@@ -144,9 +133,8 @@ static void choose_jobs(measure *m)
     }
 }
 
-static fg_status measure_jobs(measure *m, const truths *t)
+static fg_status measure_jobs(measure *m)
 {
-    m->truths = t;
     m->batch = (batch){
         .h = &m->h,
         .budget = m->budget,
@@ -174,6 +162,42 @@ static fg_status measure_jobs(measure *m, const truths *t)
     return status;
 }
 
+static fg_status measure_all(measure *m, const truths *t)
+{
+    const studies_desc desc = {
+        .h = &m->h,
+        .budget = m->budget,
+        .width = m->width,
+        .height = m->height,
+        .full = m->budget == &full_budget,
+        .plugins = m->plugins,
+        .plugin_count = m->plugin_count,
+        .truths = t->picture[0].rgb ? t : NULL,
+        .scene_number = m->scene_number,
+        .doc = m->doc,
+    };
+    m->truths = t;
+    const fg_status status = m->jobs->count ? measure_jobs(m) : FG_OK;
+    return status == FG_OK ? studies_measure(&desc) : status;
+}
+
+static int render_truths(measure *m, uint64_t triangles, truths *t)
+{
+    int spp[REPORT_TRUTHS];
+    spp[0] = triangles < SMALL ? m->budget->spp_small : m->budget->spp_large;
+    spp[1] = (spp[0] + 1) / 2; // a ray that nothing stops costs more
+    for (int i = 0; i < REPORT_TRUTHS && m->h.o->spp > 0; ++i)
+        spp[i] = m->h.o->spp;
+    const truths_desc desc = {
+        .folder = m->folder,
+        .scene_json = m->scene,
+        .width = m->width,
+        .height = m->height,
+        .spp = { spp[0], spp[1] },
+    };
+    return truths_render(&m->h, &desc, t);
+}
+
 static int measure_scene(measure *m, const char *name)
 {
     truths t = { 0 };
@@ -189,21 +213,10 @@ static int measure_scene(measure *m, const char *name)
     cJSON_AddNumberToObject(m->scene, "triangles", (double) triangles);
     cJSON_AddArrayToObject(m->scene, "not_served");
     cJSON_AddArrayToObject(m->scene, "graphs");
-    int spp[REPORT_TRUTHS];
-    spp[0] = triangles < SMALL ? m->budget->spp_small : m->budget->spp_large;
-    spp[1] = (spp[0] + 1) / 2; // a ray that nothing stops costs more
-    for (int i = 0; i < REPORT_TRUTHS && m->h.o->spp > 0; ++i)
-        spp[i] = m->h.o->spp;
-    const truths_desc desc = {
-        .folder = m->folder,
-        .scene_json = m->scene,
-        .width = m->width,
-        .height = m->height,
-        .spp = { spp[0], spp[1] },
-    };
-    code = truths_render(&m->h, &desc, &t);
+    if (m->jobs->count || studies_need_truths(m->h.o, m->budget == &full_budget))
+        code = render_truths(m, triangles, &t);
     if (code == EXIT_DONE)
-        code = cli_status(m->h.c, measure_jobs(m, &t));
+        code = cli_status(m->h.c, measure_all(m, &t));
     truths_finish(&t);
     return code;
 }
@@ -226,6 +239,7 @@ static cJSON *new_document(const measure *m)
     cJSON_AddArrayToObject(doc, "notes");
     cJSON_AddArrayToObject(doc, "scenes");
     cJSON_AddArrayToObject(doc, "records");
+    cJSON_AddArrayToObject(doc, "studies");
     return doc;
 }
 
@@ -267,6 +281,8 @@ int report_measure(cli *c, const options *o, cJSON **doc)
     if (code == EXIT_DONE)
         code = host_settings(&m.h, true, plugins, &count);
     if (code == EXIT_DONE)
+        code = studies_check(c, o);
+    if (code == EXIT_DONE && !o->study_count)
         code = cli_status(c, jobs_build(o, plugins, count, full, &jobs));
     if (code == EXIT_DONE)
         code = host_open_device(&m.h);
@@ -274,6 +290,8 @@ int report_measure(cli *c, const options *o, cJSON **doc)
         code = check_size(&m);
     if (code == EXIT_DONE) {
         m.doc = new_document(&m);
+        m.plugins = plugins;
+        m.plugin_count = count;
         code = measure_scenes(&m, &jobs);
     }
     for (int i = 0; i < count; ++i)

@@ -149,7 +149,7 @@ static int compare_records(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The order that one run without shards has.
+// By "index": the order that one run without shards has.
 static int sort_records(cli *c, cJSON *records)
 {
     const int count = cJSON_GetArraySize(records);
@@ -165,6 +165,39 @@ static int sort_records(cli *c, cJSON *records)
     return EXIT_DONE;
 }
 
+static bool same_study(const cJSON *a, const cJSON *b)
+{
+    return !strcmp(json_text(a, "scene"), json_text(b, "scene")) &&
+           !strcmp(json_text(a, "name"), json_text(b, "name"));
+}
+
+static int join_studies(cli *c, const char *from, cJSON *into, cJSON *list)
+{
+    while (cJSON_GetArraySize(list)) {
+        cJSON *item = cJSON_DetachItemFromArray(list, 0), *other;
+        cJSON_AddItemToArray(into, item);
+        cJSON_ArrayForEach(other, into)
+        {
+            if (other != item && same_study(other, item))
+                return cli_fail(c, EXIT_INPUT,
+                                "%s/report.json: has the study %s that another folder has too",
+                                from, json_text(item, "name"));
+        }
+    }
+    return EXIT_DONE;
+}
+
+// What studies lack was found while measuring; other notes are of the plots, which are drawn anew.
+static void join_notes(cJSON *doc, const cJSON *notes)
+{
+    const cJSON *note;
+    cJSON_ArrayForEach(note, notes)
+    {
+        if (cJSON_IsString(note) && !strncmp(note->valuestring, "studies: ", 9))
+            report_note(doc, "%s", note->valuestring);
+    }
+}
+
 static int join(cli *c, const options *o, const char *from, cJSON *doc, cJSON *part)
 {
     cJSON *records = cJSON_GetObjectItem(part, "records");
@@ -174,6 +207,7 @@ static int join(cli *c, const options *o, const char *from, cJSON *doc, cJSON *p
                         o->operands[0]);
     if (!cJSON_Compare(cJSON_GetObjectItem(doc, "device"), cJSON_GetObjectItem(part, "device"), 1))
         cli_warn("%s: was measured on another device: times do not compare", from);
+    join_notes(doc, cJSON_GetObjectItem(part, "notes"));
     int code = join_scenes(c, o, from, cJSON_GetObjectItem(doc, "scenes"),
                            cJSON_GetObjectItem(part, "scenes"));
     while (code == EXIT_DONE && cJSON_GetArraySize(records)) {
@@ -184,7 +218,10 @@ static int join(cli *c, const options *o, const char *from, cJSON *doc, cJSON *p
         else
             cJSON_Delete(record);
     }
-    return code;
+    if (code != EXIT_DONE)
+        return code;
+    return join_studies(c, from, cJSON_GetObjectItem(doc, "studies"),
+                        cJSON_GetObjectItem(part, "studies"));
 }
 
 // The first report without its contents, to be joined with all, itself too.
@@ -193,6 +230,8 @@ static cJSON *empty_copy(const cJSON *first)
     cJSON *doc = cJSON_Duplicate(first, 1);
     cJSON_ReplaceItemInObject(doc, "scenes", cJSON_CreateArray());
     cJSON_ReplaceItemInObject(doc, "records", cJSON_CreateArray());
+    cJSON_DeleteItemFromObject(doc, "studies");
+    cJSON_AddArrayToObject(doc, "studies");
     cJSON_ReplaceItemInObject(doc, "notes", cJSON_CreateArray());
     cJSON_ReplaceItemInObject(doc, "shard", cJSON_CreateNull());
     return doc;
@@ -226,5 +265,7 @@ int report_merge(cli *c, const options *o, cJSON **doc)
         report_note(*doc, "joined of %d of %d shards: settings are missing", parts, shards);
     if (code == EXIT_DONE)
         code = sort_records(c, cJSON_GetObjectItem(*doc, "records"));
+    if (code == EXIT_DONE)
+        code = sort_records(c, cJSON_GetObjectItem(*doc, "studies"));
     return code;
 }

@@ -298,13 +298,26 @@ static void draw_graphs(const char *folder, cJSON *doc, cJSON *scene)
     }
 }
 
+// Not so where studies alone were run.
+static bool has_records(const cJSON *doc, const char *scene)
+{
+    const cJSON *record;
+    cJSON_ArrayForEach(record, cJSON_GetObjectItem(doc, "records"))
+    {
+        if (of_scene(record, scene))
+            return true;
+    }
+    return false;
+}
+
 fg_status report_plots(const fg_log *log, const char *folder, cJSON *doc)
 {
     cJSON *scene;
     fg_status status = FG_OK;
     cJSON_ArrayForEach(scene, cJSON_GetObjectItem(doc, "scenes"))
     {
-        for (int truth = -1; truth < REPORT_TRUTHS && status == FG_OK; ++truth)
+        const bool swept = has_records(doc, json_text(scene, "name"));
+        for (int truth = -1; swept && truth < REPORT_TRUTHS && status == FG_OK; ++truth)
             status = draw(log, folder, doc, scene, truth);
         draw_graphs(folder, doc, scene);
     }

@@ -155,3 +155,17 @@ int truths_render(host *h, const truths_desc *desc, truths *out)
     cJSON_AddNumberToObject(desc->scene_json, "exposure", out->exposure);
     return cli_status(h->c, status);
 }
+
+// The noise of the truth is independent of the result and of the truth: its square is in the
+// squares of both the error and the truth's RMS, and is taken out of both.
+cJSON *truth_error(const truths *t, int truth, const metrics *e)
+{
+    const double noise = t->noise[truth] * t->noise[truth];
+    const double square = e->rmse * e->rmse - noise, rms = t->rms[truth] * t->rms[truth] - noise;
+    const double corrected = square > 0 && rms > 0 ? sqrt(square / rms) : (double) NAN;
+    cJSON *json = record_error(truth_names[truth], e);
+    cJSON_AddNumberToObject(json, "noise", t->noise[truth]);
+    cJSON_AddItemToObject(json, "rmse_rms_corrected",
+                          isfinite(corrected) ? cJSON_CreateNumber(corrected) : cJSON_CreateNull());
+    return json;
+}

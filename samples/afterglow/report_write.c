@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "file.h"
+#include "study.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -189,6 +190,8 @@ int report_write(cli *c, const char *folder, cJSON *doc)
     char path[4096];
     fg_status status = report_plots(&c->log, folder, doc);
     snprintf(path, sizeof path, "%s/report.json", folder);
+    if (status == FG_OK)
+        status = study_plots(&c->log, folder, doc);
     if (status == FG_OK)
         status = report_csv(&c->log, folder, doc);
     if (status == FG_OK)

@@ -51,6 +51,7 @@ def bad_values_name_option_value_and_rule(folder):
     fails(3, ['--shader-dir', 'no folder'], 'render', 'cornell', '--shader-dir', folder + '/none', '-o', picture)
     fails(2, ['--format', 'xml'], 'graph', 'cornell', '--format', 'xml')
     fails(2, ['--budget', 'huge'], 'report', '--budget', 'huge', '-o', folder + '/r')
+    fails(2, ['--study', 'stages, eye_depth', "'eye'"], 'report', '--study', 'eye', '-o', folder + '/r')
     fails(2, ['--shard', '3/2'], 'report', '--shard', '3/2', '-o', folder + '/r')
     fails(2, ['device is 60', 'must be'], 'render', 'cornell', '--size', '4x4', '--device', 60, '-o', picture)
     assert not os.path.exists(picture)
