@@ -79,6 +79,7 @@ void ag_rsm_declare(ag_rsm_pass *pass, fg_graph *g, const ag_gpu_scene *gpu,
             .user = &pass->faces[i],
         };
         fg_passes(g, &draw, 1);
+        pass->depth = depth;
         pass->position = position;
         pass->normal = normal;
         pass->flux = flux;

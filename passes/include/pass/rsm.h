@@ -18,6 +18,7 @@ FG_BEGIN
 //         normal RGBA16F: xyz unit, the face's, turned to the light; w 1, 0: nothing here
 //         flux RGBA32F: rgb reflected flux rho_j Phi_j, W; a solid angle of the texel, sr
 //         (directional: its cross-section, m^2)
+//         depth DEPTH32F: reversed Z, 0: nothing here
 // Left out where the scene has no light or no geometry.
 // Source: Nichols, Shopf, Wyman. Hierarchical Image-Space Radiosity for Interactive Global
 //         Illumination. EGSR 2009, sec. 3.2, eq. 2-4.
@@ -25,7 +26,7 @@ FG_BEGIN
 typedef struct ag_rsm_pass {
     const ag_gpu_scene *gpu;
     ag_scene_res scene;
-    fg_res position, normal, flux;
+    fg_res depth, position, normal, flux;
     int size, face_count;
     bool equal_solid_angle;
     ag_face_user faces[AG_MAX_FACES];
