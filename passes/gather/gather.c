@@ -13,16 +13,21 @@ static int suitable_block(fg_device *device)
     return fg_gl_software(device) ? 16 : 4;
 }
 
+static int block_of(fg_device *device, const ag_gather_pass *pass)
+{
+    return pass->block ? pass->block : suitable_block(device);
+}
+
 static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
 {
     static const int clamps[] = { 3, 1, 0, 2 }; // by ag_clamp, as gather.comp numbers them
-    char defines[64];
-    const int block = pass->block ? pass->block : suitable_block(device);
-    const int edge = block == 16 ? 4 : block == 4 ? 2 : 1;
-    snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s", edge, edge,
-             clamps[pass->clamp], pass->visibility ? ";VISIBILITY=1" : "");
-    return fg_gl_program(device,
-                         &(fg_gl_program_desc){ .shaders = { &gather_comp }, .defines = defines });
+    char defines[96];
+    const int block = block_of(device, pass), edge = block == 16 ? 4 : block == 4 ? 2 : 1;
+    snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s%s", edge, edge,
+             clamps[pass->clamp], pass->multires ? ";LIST=1" : "",
+             pass->visibility ? ";VISIBILITY=1" : "");
+    const fg_gl_program_desc desc = { .shaders = { &gather_comp }, .defines = defines };
+    return fg_gl_program(device, &desc);
 }
 
 // VPLs of one dispatch. Mesa's software renderer leaves every loop of an invocation for good after
@@ -37,6 +42,9 @@ static void dispatch_spans(const fg_run *run, const ag_gather_pass *pass, uint32
                            int block)
 {
     const int edge = block == 16 ? 32 : block == 4 ? 16 : 8; // pixels of one work group
+    const int offset = block == 16  ? 48
+                       : block == 4 ? 32
+                                    : 16; // of its dispatch in multires->count
     const int step = suitable_span(fg_run_device(run));
     int size[3];
     fg_run_size(run, pass->out, 0, size);
@@ -45,8 +53,19 @@ static void dispatch_spans(const fg_run *run, const ag_gather_pass *pass, uint32
         if (first > 0)
             glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         glProgramUniform3i(program, 2, first, last ? pass->capacity : first + step, last);
-        fg_gl_dispatch_2d(size[0], size[1], edge, edge);
+        if (pass->multires)
+            glDispatchComputeIndirect(offset);
+        else
+            fg_gl_dispatch_2d(size[0], size[1], edge, edge);
     }
+}
+
+static void bind_list(const fg_run *run, const ag_multires_pass *m, uint32_t program)
+{
+    fg_gl_storage(run, 2, m->texels);
+    fg_gl_storage(run, 3, m->count);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, fg_run_object(run, m->count));
+    glProgramUniform2i(program, 3, m->pyramid.base[0], m->pyramid.base[1]);
 }
 
 static fg_status run_gather(const fg_run *run, void *user)
@@ -64,7 +83,9 @@ static fg_status run_gather(const fg_run *run, void *user)
     fg_gl_image(run, 0, pass->out, 0, GL_READ_WRITE, FG_RGBA32F);
     if (pass->clamp == AG_CLAMP_CONSTANT)
         glProgramUniform1f(program, 0, pass->clamp_d2);
-    const int block = pass->block ? pass->block : suitable_block(device);
+    if (pass->multires)
+        bind_list(run, pass->multires, program);
+    const int block = block_of(device, pass);
     if (pass->clamp == AG_CLAMP_FOOTPRINT)
         glProgramUniform1i(program, 1, block);
     if (pass->visibility)
@@ -90,15 +111,24 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
         .clamp_d2 = desc->clamp_d2,
         .block = desc->block,
         .visibility = desc->visibility,
+        .multires = desc->multires,
     };
     if (desc->block != 0 && desc->block != 1 && desc->block != 4 && desc->block != 16) {
         fg_fail(g, "%s: block is %d, must be 1, 4 or 16", desc->prefix, desc->block);
         return;
     }
     snprintf(name, sizeof name, "%s.gather", desc->prefix);
-    snprintf(texture, sizeof texture, "%s.indirect", desc->prefix);
+    const ag_multires_pass every_pixel = { 0 }, *m = desc->multires ? desc->multires : &every_pixel;
     const ag_ism_pass unshadowed = { 0 }, *ism = desc->visibility ? desc->visibility : &unshadowed;
-    pass->out = fg_texture(g, texture, &(fg_tex_desc){ .format = FG_RGBA32F });
+    const fg_tex_desc tex = {
+        .format = FG_RGBA32F,
+        .width = m->pyramid.size[0], // 0: the frame's
+        .height = m->pyramid.size[1],
+    };
+    snprintf(texture, sizeof texture, pass->multires ? "%s.illumination" : "%s.indirect",
+             desc->prefix);
+    pass->out = fg_texture(g, texture, &tex);
+    const fg_load load = pass->multires ? FG_LOAD_KEEP : FG_LOAD_DISCARD;
     const fg_pass_desc gather = {
         .name = name,
         .kind = FG_KIND_COMPUTE,
@@ -110,8 +140,11 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
             { pass->count },
             { ism->maps, .optional = true },
             { ism->eyes, .optional = true },
+            { m->texels, .optional = true },
+            { m->count, .optional = true },
+            { m->count, FG_USE_INDIRECT, .optional = true },
         },
-        .writes = { { pass->out, FG_USE_IMAGE, FG_LOAD_DISCARD } },
+        .writes = { { pass->out, FG_USE_IMAGE, load } },
         .run = run_gather,
         .user = pass,
     };

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Irradiance of every pixel from all VPLs.
 // In:  position RGBA32F, normal RGBA16F; ag_vpl[], count
-// Out: E / pi RGBA32F, W/(m^2 sr); a 1
+//      LIST: texels of a multiresolution buffer, their count
+// Out: E / pi RGBA32F, W/(m^2 sr); a 1. LIST: into the flattened pyramid
 // BLOCK_X, BLOCK_Y: receivers of one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint.
 // VISIBILITY: each VPL's light is shadowed by its imperfect shadow map.
 //
@@ -34,6 +35,9 @@ layout(local_size_x = group, local_size_y = group) in;
 
 layout(binding = 0) uniform sampler2D position_map;
 layout(binding = 1) uniform sampler2D normal_map;
+#ifdef LIST
+#include "passes/multires/receiver.glsl"
+#endif
 layout(std430, binding = 0) readonly buffer vpl_buffer
 {
     ag_vpl vpls[];
@@ -50,12 +54,68 @@ layout(location = 0) uniform float clamp_d2; // m^2
 layout(location = 2) uniform ivec3 span;
 layout(binding = 0, rgba32f) uniform image2D indirect;
 
-// Receivers of one invocation lie `group` pixels apart, so that neighbours load neighbours.
+// Receivers of one invocation lie `group` pixels, or 64 texels of the list, apart, so that neighbours
+// load neighbours.
+#ifdef LIST
+layout(std430, binding = 2) readonly buffer texel_buffer
+{
+    uint texels[];
+};
+layout(std430, binding = 3) readonly buffer texel_count_buffer
+{
+    uvec4 texel_count;
+};
+layout(location = 3) uniform ivec2 base; // size of level 0 in the pyramid
+
+uint receiver(int i)
+{
+    uint group_index = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    return (group_index * block + i) * group * group + gl_LocalInvocationIndex;
+}
+
+bool is_there(int i)
+{
+    return receiver(i) < texel_count.x;
+}
+
+multires_texel texel_of(int i)
+{
+    return multires_unpack(texels[min(receiver(i), texel_count.x - 1u)]);
+}
+
+// Where its sum stands.
+ivec2 place_of(int i)
+{
+    return multires_place(texel_of(i), base);
+}
+
+void fetch_receiver(int i, out vec3 position, out vec3 normal)
+{
+    multires_receiver(texel_of(i), position, normal);
+}
+#else
 ivec2 receiver(int i)
 {
     ivec2 base = ivec2(gl_WorkGroupID.xy) * group * ivec2(BLOCK_X, BLOCK_Y);
     return base + ivec2(gl_LocalInvocationID.xy) + group * ivec2(i % BLOCK_X, i / BLOCK_X);
 }
+
+bool is_there(int i)
+{
+    return all(lessThan(receiver(i), view.size.xy));
+}
+
+ivec2 place_of(int i)
+{
+    return min(receiver(i), view.size.xy - 1);
+}
+
+void fetch_receiver(int i, out vec3 position, out vec3 normal)
+{
+    position = texelFetch(position_map, place_of(i), 0).xyz;
+    normal = texelFetch(normal_map, place_of(i), 0).xyz;
+}
+#endif
 
 #if CLAMP == 3
 #include "passes/gather/near.glsl"
@@ -72,21 +132,21 @@ void correct_near(int start, uvec2 near, float unit)
         vec3 q = vpls[j].position_area.xyz * unit;
         float area = vpls[j].position_area.w * unit * unit;
         for (int i = 0; i < block_size; i++) {
-            ivec2 at = min(receiver(i), view.size.xy - 1);
-            vec3 d = q - texelFetch(position_map, at, 0).xyz * unit;
+            vec3 p, n;
+            fetch_receiver(i, p, n);
+            vec3 d = q - p * unit;
             float d2 = dot(d, d);
             float cos_j = max(-dot(vpls[j].normal.xyz, d), 0.0);
             if (!patch_is_near(d2, cos_j, area))
                 continue;
-            vec3 n = texelFetch(normal_map, at, 0).xyz;
             n /= max(length(n), 1e-6);
             float share = patch_share(d, n, vpls[j], area, cos_j);
 #ifdef VISIBILITY
             share *= ism_visibility(ism_map_of(j, int(count.x)), q - d, n);
 #endif
-            if (all(lessThan(receiver(i), view.size.xy))) {
-                vec4 old = imageLoad(indirect, at);
-                imageStore(indirect, at, old + vec4(vpls[j].flux.rgb * share, 0.0));
+            if (is_there(i)) {
+                vec4 old = imageLoad(indirect, place_of(i));
+                imageStore(indirect, place_of(i), old + vec4(vpls[j].flux.rgb * share, 0.0));
             }
         }
     }
@@ -103,14 +163,13 @@ void main()
     if (span.x > 0 && span.x >= total && span.z == 0)
         return;
     for (int i = 0; i < block; i++) {
-        ivec2 at = min(receiver(i), view.size.xy - 1);
-        p[i] = texelFetch(position_map, at, 0).xyz * unit;
-        n[i] = texelFetch(normal_map, at, 0).xyz;
+        fetch_receiver(i, p[i], n[i]);
+        p[i] *= unit;
         n[i] /= max(length(n[i]), 1e-6);
         sum[i] = vec3(0.0);
 #if CLAMP == 3
-        if (span.x == 0 && all(lessThan(receiver(i), view.size.xy)))
-            imageStore(indirect, receiver(i), vec4(0.0));
+        if (span.x == 0 && is_there(i))
+            imageStore(indirect, place_of(i), vec4(0.0));
 #endif
     }
 #if CLAMP == 2
@@ -172,9 +231,9 @@ void main()
 #endif
     }
     for (int i = 0; i < block; i++) {
-        ivec2 at = receiver(i);
-        if (any(greaterThanEqual(at, view.size.xy)))
+        if (!is_there(i))
             continue;
+        ivec2 at = place_of(i);
 #if CLAMP != 3
         if (span.x > 0)
 #endif

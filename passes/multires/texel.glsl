@@ -36,8 +36,8 @@ int multires_flag_index(int level, ivec2 at, ivec2 base)
 }
 
 // tiles: what is valid in a tile of 8 x 8 pixels. xy: level 0, bit y * 8 + x; z: level 1 from bit 0
-// on, bit y * 4 + x, level 2 from bit 16 on, bit y * 2 + x; then bits 20 to 26: the texel of that
-// level less 17, 3 and up, whose lower left corner the tile is. w: how many those are.
+// on, bit y * 4 + x, level 2 from bit 16 on, bit y * 2 + x; bit 17 + l: the texel of level l, 3 and
+// up, whose lower left corner the tile is. w: how many of all these show a surface.
 bool multires_valid_in_tile(uvec4 tile, int level, ivec2 at)
 {
     if (level == 0) {

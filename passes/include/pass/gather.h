@@ -3,6 +3,7 @@
 #define PASS_GATHER_H
 
 #include <pass/ism.h>
+#include <pass/multires.h>
 #include <pass/vpl.h>
 
 FG_BEGIN
@@ -22,7 +23,8 @@ typedef enum ag_clamp {
 //
 // V_ij is 1 for all, or what imperfect shadow maps say.
 //
-// Shapes: out RGBA32F of the frame's size; a 1. Left out where there is no light or no geometry.
+// Shapes: out RGBA32F of the frame's size; a 1. With `multires`: at its valid texels alone, of the
+//         size of its pyramid. Left out where there is no light or no geometry.
 // Units:  E / pi, W/(m^2 sr).
 // Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5. Departs from it: see gather.comp.
 typedef struct ag_gather_pass {
@@ -34,6 +36,7 @@ typedef struct ag_gather_pass {
     int block;    // receivers of one invocation: 1, 4 or 16
     int capacity; // of `vpls`
     const ag_ism_pass *visibility;
+    const ag_multires_pass *multires;
 } ag_gather_pass;
 
 typedef struct ag_gather_desc {
@@ -43,6 +46,7 @@ typedef struct ag_gather_desc {
     int block;                     // 1, 4 or 16; 0: what suits the device (16 on a CPU, else 4)
     const ag_ism_pass *visibility; // maps of these VPLs, declared before; borrowed while the graph
                                    // runs. NULL: nothing shadows them
+    const ag_multires_pass *multires; // NULL: every pixel. Borrowed while the graph runs.
 } ag_gather_desc;
 
 FG_API void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,

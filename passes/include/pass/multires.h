@@ -30,8 +30,8 @@ FG_BEGIN
 // what
 //         is valid; see passes/multires/texel.glsl.
 //         texels: uint[capacity], the valid texels that show a surface, as multires_pack() makes
-//         them; count: uvec4, x how many those are, yzw 0; then an indirect dispatch (x / 1024
-//         rounded up, 1, 1, 0). Both COMPACT only.
+//         them; count: uvec4, x how many those are, yzw 0; then indirect dispatches of as many work
+//         groups as take 64, 256 and 1024 each, 16 bytes apart. Both COMPACT only.
 //         stencil: depth-stencil of the pyramid's size, stencil 1 at those texels. STENCIL only.
 // Source: Nichols, Shopf, Wyman 2009, sec. 3.2.1.
 //         Departs from it: 2:1 balance; departure from a plane as a metric; `share`; a texel never
@@ -57,7 +57,7 @@ typedef struct ag_multires_pass {
     ag_scene_res scene;
     fg_res position, normal; // of the G-buffer
     ag_variation_pass variation;
-    fg_res flags, tiles, texels, count;
+    fg_res flags, tiles, texels, count, sums;
     fg_res stencil; // AG_CULL_STENCIL
     ag_pyramid pyramid;
     int width, height;

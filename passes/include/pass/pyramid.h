@@ -18,23 +18,10 @@ typedef struct ag_pyramid {
 } ag_pyramid;
 
 // For an image of width x height texels.
-static inline ag_pyramid ag_pyramid_of(int width, int height, int levels)
-{
-    const int unit = 1 << (levels - 1);
-    ag_pyramid p = { .levels = levels };
-    p.base[0] = (width + unit - 1) / unit * unit;
-    p.base[1] = (height + unit - 1) / unit * unit;
-    p.size[0] = levels > 1 ? p.base[0] + p.base[0] / 2 : p.base[0];
-    p.size[1] = p.base[1];
-    return p;
-}
+FG_API ag_pyramid ag_pyramid_of(int width, int height, int levels);
 
 // Where the k-th level of it begins, 0 the finest.
-static inline void ag_pyramid_origin(const ag_pyramid *p, int k, int out[2])
-{
-    out[0] = k == 0 ? 0 : p->base[0];
-    out[1] = k == 0 ? 0 : p->base[1] - (p->base[1] >> (k - 1));
-}
+FG_API void ag_pyramid_origin(const ag_pyramid *p, int k, int out[2]);
 
 FG_END
 

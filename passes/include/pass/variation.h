@@ -17,7 +17,8 @@ FG_BEGIN
 // Blocks at the right and upper edge may reach beyond the image; they hold what lies inside, so
 // that no texel is lost at sizes that are no power of two.
 //
-// Shapes: change RGBA16F, a flattened pyramid of levels 1 .. levels (pass/pyramid.h): xyz extent
+// Shapes: change RGBA16F, a flattened pyramid of levels first .. levels (pass/pyramid.h): xyz
+// extent
 //         (largest minus least) of each component of the normal; w largest depth derivative. Both
 //         are taken over the block's texels and their neighbours to the right and above, so that an
 //         edge between two blocks shows in one of them at least. Rounded up, saturated at 65504.
@@ -53,7 +54,7 @@ typedef struct ag_variation_pass {
     fg_res change;
     fg_res range; // null unless asked for
     ag_scene_res scene;
-    ag_pyramid pyramid; // level l is its (l - 1)-th
+    ag_pyramid pyramid; // of levels first .. levels
     int width, height, layers, levels, first;
     ag_depth_metric metric;
 } ag_variation_pass;

@@ -1,0 +1,104 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Lists the valid texels, tile by tile, always in the same order.
+// In:  uvec4[] of tiles; SUM: that alone. Else: how many each 256 of them have
+// Out: SUM: how many each 256 tiles have. Else: texels; count and indirect dispatches
+//      Source: beyond Nichols, Shopf, Wyman 2009, which culls by stencil.
+#include "passes/multires/texel.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 0) readonly buffer tile_buffer
+{
+    uvec4 tiles[];
+};
+layout(std430, binding = 1) buffer sum_buffer
+{
+    uint sums[];
+};
+layout(std430, binding = 2) writeonly buffer texel_buffer
+{
+    uint texels[];
+};
+layout(std430, binding = 3) writeonly buffer count_buffer
+{
+    uvec4 counts[4];
+};
+layout(location = 0) uniform ivec2 grid;  // tiles
+layout(location = 1) uniform int levels;
+
+shared uint before[256];
+
+// Sum of `value` over the invocations before this one, and over all.
+uint scan(uint value, out uint all)
+{
+    uint me = gl_LocalInvocationIndex;
+    before[me] = value;
+    barrier();
+    for (uint step_ = 1; step_ < 256; step_ *= 2) {
+        uint left = me >= step_ ? before[me - step_] : 0;
+        barrier();
+        before[me] += left;
+        barrier();
+    }
+    all = before[255];
+    uint exclusive = before[me] - value;
+    barrier();
+    return exclusive;
+}
+
+#ifdef SUM
+void main()
+{
+    uint index = gl_GlobalInvocationID.x, all;
+    scan(index < uint(grid.x * grid.y) ? tiles[index].w : 0u, all);
+    if (gl_LocalInvocationIndex == 0)
+        sums[gl_WorkGroupID.x] = all;
+}
+#else
+void list_bits(uint bits, int level, int log2_along, ivec2 origin, inout uint place)
+{
+    for (; bits != 0u; bits &= bits - 1u) {
+        int bit = findLSB(bits);
+        ivec2 at = ivec2(bit & ((1 << log2_along) - 1), bit >> log2_along);
+        texels[place++] = multires_pack(level, origin + at);
+    }
+}
+
+void list_tile(ivec2 tile, uvec4 mask, uint place)
+{
+    for (int level = levels - 1; level >= 3; level--)
+        if ((mask.z >> (17 + level) & 1u) != 0u)
+            texels[place++] = multires_pack(level, tile >> (level - 3));
+    list_bits(mask.z >> 16 & 15u, 2, 1, tile * 2, place);
+    list_bits(mask.z & 0xffffu, 1, 2, tile * 4, place);
+    list_bits(mask.x, 0, 3, tile * 8, place);
+    list_bits(mask.y, 0, 3, tile * 8 + ivec2(0, 4), place);
+}
+
+// As a dispatch of work groups that take `each` of them; more than fit one axis fill rows.
+uvec4 dispatch_of(uint total, uint each)
+{
+    uint groups = (total + each - 1u) / each, rows = (groups + 65534u) / 65535u;
+    return uvec4(min(groups, 65535u), max(rows, 1u), 1u, 0u);
+}
+
+void main()
+{
+    uint me = gl_LocalInvocationIndex, index = gl_GlobalInvocationID.x, earlier = 0u, base, here;
+    for (uint g = me; g < gl_WorkGroupID.x; g += 256)
+        earlier += sums[g];
+    scan(earlier, base);
+    uvec4 mask = index < uint(grid.x * grid.y) ? tiles[index] : uvec4(0u);
+    uint place = base + scan(mask.w, here);
+    if (mask.w != 0u)
+        list_tile(ivec2(int(index) % grid.x, int(index) / grid.x), mask, place);
+    if (me == 0u && gl_WorkGroupID.x == gl_NumWorkGroups.x - 1u) {
+        uint total = base + here;
+        counts[0] = uvec4(total, 0u, 0u, 0u);
+        counts[1] = dispatch_of(total, 64u);
+        counts[2] = dispatch_of(total, 256u);
+        counts[3] = dispatch_of(total, 1024u);
+    }
+}
+#endif

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include <gi/eye_rows.h>
+#include <pass/gather.h>
+#include <pass/readback.h>
+
+#include <stdlib.h>
+
+static const char *const source_names[] = { "regular", NULL };
+static const char *const clamp_names[] = { "footprint", "disc", "none", "constant", NULL };
+static const char *const solid_angle_names[] = { "exact", "equal", NULL };
+static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, (double) NAN };
+
+enum {
+    RSM_SIZE,
+    SOURCE,
+    VPLS,
+    EYE,
+    CLAMP = EYE + GI_EYE_ROWS,
+    CLAMP_D2,
+    SOLID_ANGLE,
+    PARAM_COUNT,
+};
+
+static const gi_param params[] = {
+    [RSM_SIZE] = { .name = "rsm_size",
+                   .type = GI_INT,
+                   .unit = "texels",
+                   .min = 1,
+                   .max = 1024,
+                   .def = 256,
+                   .power_of_two = true,
+                   .help = "edge of a reflective shadow map" },
+    [SOURCE] = { .name = "source",
+                 .type = GI_ENUM,
+                 .unit = "1",
+                 .choices = source_names,
+                 .help = "VPLs: a regular pattern (sec. 3.2)" },
+    [VPLS] = { .name = "vpls",
+               .type = GI_INT,
+               .unit = "1",
+               .min = 1,
+               .max = 1048576,
+               .def = 256,
+               .quality = true,
+               .sweep = vpl_sweep,
+               .help = "at most this many, with source=regular" },
+    GI_EYE_PARAMS(EYE),
+    [CLAMP] = { .name = "clamp",
+                .type = GI_ENUM,
+                .unit = "1",
+                .def = AG_CLAMP_FOOTPRINT,
+                .choices = clamp_names,
+                .help = "what bounds a near VPL: its patch, exactly; a disc of its area; nothing; "
+                        "clamp_d2" },
+    [CLAMP_D2] = { .name = "clamp_d2",
+                   .type = GI_FLOAT,
+                   .unit = "m^2",
+                   .min = 1e-12,
+                   .max = 1e12,
+                   .def = 1,
+                   .help = "least squared distance, with clamp=constant" },
+    [SOLID_ANGLE] = { .name = "solid_angle",
+                      .type = GI_ENUM,
+                      .unit = "1",
+                      .def = 0,
+                      .choices = solid_angle_names,
+                      .help = "of a texel: its own, or the paper's equal share (eq. 4)" },
+    { .name = NULL },
+};
+
+typedef struct isr {
+    gi_env env;
+    gi_value values[PARAM_COUNT];
+    ag_rsm_pass map;
+    ag_vpl_pass vpl;
+    ag_multires_pass eye;
+    ag_gather_pass gather;
+    ag_upsample_pass upsample;
+    ag_readback vpl_count, texel_count;
+} isr;
+
+static fg_status isr_set(void *self, const gi_value *values)
+{
+    isr *s = self;
+    for (int i = 0; i < PARAM_COUNT; i++)
+        s->values[i] = values[i];
+    return FG_OK;
+}
+
+static void isr_destroy(void *self)
+{
+    isr *s = self;
+    if (!s)
+        return;
+    ag_readback_finish(&s->vpl_count);
+    ag_readback_finish(&s->texel_count);
+    free(s);
+}
+
+static fg_status isr_create(const gi_env *env, const gi_value *values, void **self)
+{
+    isr *s = calloc(1, sizeof *s);
+    *self = NULL;
+    if (!s || ag_readback_init(&s->vpl_count) != FG_OK ||
+        ag_readback_init(&s->texel_count) != FG_OK) {
+        fg_logf(env->log, FG_LOG_ERROR, "isr: out of memory");
+        isr_destroy(s);
+        return FG_ERR_MEMORY;
+    }
+    s->env = *env;
+    *self = s;
+    return isr_set(s, values);
+}
+
+static void declare_vpls(isr *s, fg_graph *g, const gi_inputs *in)
+{
+    const gi_value *v = s->values;
+    const ag_rsm_desc map = {
+        .prefix = "isr",
+        .size = (int) v[RSM_SIZE].i,
+        .equal_solid_angle = v[SOLID_ANGLE].i != 0,
+    };
+    const ag_vpl_desc vpl = {
+        .prefix = "isr",
+        .pattern = AG_VPL_REGULAR,
+        .budget = (int) v[VPLS].i,
+    };
+    ag_rsm_declare(&s->map, g, s->env.gpu_scene, &in->scene, &map);
+    ag_vpl_declare(&s->vpl, g, &s->map, &vpl);
+    ag_readback_declare(&s->vpl_count, g, "isr.count_vpls", s->vpl.count, 4 * sizeof(uint32_t));
+}
+
+static void isr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
+{
+    isr *s = self;
+    const gi_value *v = s->values;
+    const ag_multires_desc eye = gi_eye_desc("isr", v + EYE, in->width, in->height);
+    const ag_gather_desc gather = {
+        .prefix = "isr",
+        .clamp = (ag_clamp) v[CLAMP].i,
+        .clamp_d2 = (float) v[CLAMP_D2].f,
+        .multires = &s->eye,
+    };
+    declare_vpls(s, g, in);
+    ag_multires_declare(&s->eye, g, &in->scene, &in->gbuffer, &eye);
+    ag_gather_declare(&s->gather, g, &in->scene, &in->gbuffer, &s->vpl, &gather);
+    ag_upsample_declare(&s->upsample, g, &s->eye, s->gather.out, "isr");
+    ag_readback_declare(&s->texel_count, g, "isr.count_texels", s->eye.count, 4 * sizeof(uint32_t));
+    out->indirect = s->upsample.out;
+}
+
+static int isr_counters(void *self, gi_counter *out, int max)
+{
+    isr *s = self;
+    uint32_t vpls[4] = { 0 }, texels[4] = { 0 };
+    int n = 0;
+    if (n < max)
+        out[n++] = (gi_counter){ "shadow_maps", 0 };
+    if (n < max && ag_readback_latest(&s->texel_count, texels))
+        out[n++] = (gi_counter){ "samples", texels[0] };
+    if (n < max && ag_readback_latest(&s->vpl_count, vpls))
+        out[n++] = (gi_counter){ "vpls", vpls[0] };
+    return n;
+}
+
+static const gi_plugin plugin = {
+    .abi = GI_PLUGIN_ABI,
+    .name = "isr",
+    .source = "Nichols, Shopf, Wyman. Hierarchical Image-Space Radiosity for Interactive Global "
+              "Illumination. EGSR 2009, sec. 3.1-3.4",
+    .summary = "one diffuse bounce, gathered from VPLs where the image needs it and interpolated "
+               "between; no indirect visibility",
+    .params = params,
+    .needs = AG_FEATURE_LIGHT | AG_FEATURE_GEOMETRY,
+    .create = isr_create,
+    .set = isr_set,
+    .declare = isr_declare,
+    .counters = isr_counters,
+    .destroy = isr_destroy,
+};
+
+GI_PLUGIN_ENTRY(isr)
+{
+    return &plugin;
+}
