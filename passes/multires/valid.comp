@@ -48,45 +48,49 @@ uvec2 bit_of(ivec2 at)
     return bit < 32 ? uvec2(1u << bit, 0u) : uvec2(0u, 1u << (bit - 32));
 }
 
-// Of the pixels in `left` the one nearest to the middle of the block of `edge` pixels at `corner`.
-ivec2 most_central(uvec2 left, ivec2 corner, int edge)
+ivec2 take_first(inout uvec2 bits)
 {
-    int least = 1 << 20;
-    ivec2 found = corner;
-    for (uvec2 l = left; (l.x | l.y) != 0u;) {
-        int bit = l.x != 0u ? findLSB(l.x) : 32 + findLSB(l.y);
-        l = l.x != 0u ? uvec2(l.x & (l.x - 1u), l.y) : uvec2(0u, l.y & (l.y - 1u));
-        ivec2 at = ivec2(bit & 7, bit >> 3), off = 2 * (at - corner) + 1 - edge;
+    int bit = bits.x != 0u ? findLSB(bits.x) : 32 + findLSB(bits.y);
+    bits = bits.x != 0u ? uvec2(bits.x & (bits.x - 1u), bits.y) : uvec2(0u, bits.y & (bits.y - 1u));
+    return ivec2(bit & 7, bit >> 3);
+}
+
+// Of these pixels the one nearest to the middle of all of them.
+ivec2 most_central(uvec2 set)
+{
+    ivec2 sum = ivec2(0), found = ivec2(0);
+    int count = bitCount(set.x) + bitCount(set.y), least = 1 << 30;
+    for (uvec2 left = set; (left.x | left.y) != 0u;)
+        sum += take_first(left);
+    for (uvec2 left = set; (left.x | left.y) != 0u;) {
+        ivec2 at = take_first(left), off = at * count - sum;
         int distance_ = off.x * off.x + off.y * off.y;
-        if (distance_ < least) {
-            least = distance_;
-            found = at;
-        }
+        found = distance_ < least ? at : found;
+        least = min(least, distance_);
     }
     return found;
 }
 
-// Without those pixels of `left` that are of the surface that `pixel` shows.
-uvec2 take_surface(uvec2 left, ivec2 origin, ivec2 pixel)
+// Those of the pixels that show the same surface as `pixel`, which is one of them.
+uvec2 of_surface(uvec2 set, ivec2 origin, ivec2 pixel)
 {
+    uvec2 found = bit_of(pixel);
+    if (min(limits.x, limits.y) <= 0.0)
+        return found; // nothing is near enough
     vec3 p = texelFetch(position_map, origin + pixel, 0).xyz;
     vec3 n = texelFetch(normal_map, origin + pixel, 0).xyz;
-    uvec2 rest = left & ~bit_of(pixel);
-    if (min(limits.x, limits.y) <= 0.0)
-        return rest; // nothing is near enough
-    for (uvec2 l = rest; (l.x | l.y) != 0u;) {
-        int bit = l.x != 0u ? findLSB(l.x) : 32 + findLSB(l.y);
-        l = l.x != 0u ? uvec2(l.x & (l.x - 1u), l.y) : uvec2(0u, l.y & (l.y - 1u));
-        ivec2 at = ivec2(bit & 7, bit >> 3);
+    for (uvec2 left = set & ~found; (left.x | left.y) != 0u;) {
+        ivec2 at = take_first(left);
         vec3 q = texelFetch(position_map, origin + at, 0).xyz;
         vec3 m = texelFetch(normal_map, origin + at, 0).xyz;
         if (surface_is_same(q, m, p, n, limits))
-            rest &= ~bit_of(at);
+            found |= bit_of(at);
     }
-    return rest;
+    return found;
 }
 
-// One pixel for each surface in a block of `edge` pixels at `corner` of the tile.
+// One pixel for each surface in a block of `edge` pixels at `corner` of the tile, from the middle of
+// what the block shows of it: at its rim another surface touches it, and light changes fast.
 uvec2 share_block(ivec2 origin, ivec2 corner, int edge)
 {
     uvec2 left = uvec2(0u), chosen = uvec2(0u);
@@ -96,9 +100,9 @@ uvec2 share_block(ivec2 origin, ivec2 corner, int edge)
             left |= bit_of(at);
     }
     while ((left.x | left.y) != 0u) {
-        ivec2 pixel = most_central(left, corner, edge);
+        ivec2 pixel = most_central(of_surface(left, origin, most_central(left)));
         chosen |= bit_of(pixel);
-        left = take_surface(left, origin, pixel);
+        left &= ~of_surface(left, origin, pixel);
     }
     return chosen;
 }
