@@ -74,12 +74,17 @@ int device_teardown(void **state)
     return errors ? -1 : 0;
 }
 
+const gi_plugin *plugin_named(const char *name)
+{
+    const gi_plugin *p = gi_find(registry, name);
+    if (!p)
+        fail_msg("no plugin %s: %s", name, text);
+    return p;
+}
+
 const gi_plugin *plugin_rsm(void)
 {
-    const gi_plugin *p = gi_find(registry, "rsm");
-    if (!p)
-        fail_msg("no rsm plugin: %s", text);
-    return p;
+    return plugin_named("rsm");
 }
 
 void add_quad(ag_builder *b, int material, const double p[3], const double u[3], const double v[3])
@@ -280,16 +285,7 @@ void captures_finish(capture *captures)
     }
 }
 
-typedef struct shot {
-    ag_scene *scene;
-    int width, height;
-    renderer_layer layer;
-    const gi_plugin *plugin;
-    const char *const *settings;
-    capture *captures;
-} shot;
-
-static image take(const shot *s)
+image shot_take(const shot *s)
 {
     gi_value values[32];
     image img = { 0 };
@@ -323,14 +319,14 @@ image render_layer(ag_scene *scene, int width, int height, renderer_layer layer,
                    const gi_plugin *plugin, const char *const *settings)
 {
     const shot s = { scene, width, height, layer, plugin, settings, NULL };
-    return take(&s);
+    return shot_take(&s);
 }
 
 image render_captured(ag_scene *scene, int width, int height, renderer_layer layer,
                       const char *const *settings, capture *captures)
 {
     const shot s = { scene, width, height, layer, plugin_rsm(), settings, captures };
-    return take(&s);
+    return shot_take(&s);
 }
 
 static void sphere_vertices(int rings, ag_vertex *v)

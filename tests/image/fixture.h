@@ -49,6 +49,7 @@ void add_quad(ag_builder *b, int material, const double p[3], const double u[3],
 // Power in W of a spot within its cone, by quadrature.
 double spot_power(const ag_light *light);
 
+const gi_plugin *plugin_named(const char *name);
 const gi_plugin *plugin_rsm(void);
 
 // What a frame wrote under one name: float rgba of a texture's layers in turn, or a buffer's bytes.
@@ -65,6 +66,17 @@ typedef struct capture {
 image render_captured(ag_scene *scene, int width, int height, renderer_layer layer,
                       const char *const *settings, capture *captures);
 void captures_finish(capture *captures);
+
+// The same with any plugin (NULL: none); what follows the first four may be left zero.
+typedef struct shot {
+    ag_scene *scene;
+    int width, height;
+    renderer_layer layer;
+    const gi_plugin *plugin;
+    const char *const *settings; // "key=value", NULL ends
+    capture *captures;           // ends at a NULL name
+} shot;
+image shot_take(const shot *s);
 
 // One frame with the settings ("key=value", NULL ends); fails the test if it does not succeed.
 image render_layer(ag_scene *scene, int width, int height, renderer_layer layer,
