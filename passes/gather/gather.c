@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <pass/gather.h>
 
+#include "fullscreen_vert.h"
 #include "gather_comp.h"
+#include "gather_frag.h"
 
 #include <epoxy/gl.h>
 #include <stdio.h>
@@ -13,9 +15,14 @@ static int suitable_block(fg_device *device)
     return fg_gl_software(device) ? 16 : 4;
 }
 
+static bool by_stencil(const ag_gather_pass *pass)
+{
+    return pass->multires && pass->multires->cull == AG_CULL_STENCIL;
+}
+
 static int block_of(fg_device *device, const ag_gather_pass *pass)
 {
-    return pass->block ? pass->block : suitable_block(device);
+    return by_stencil(pass) ? 1 : pass->block ? pass->block : suitable_block(device);
 }
 
 static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
@@ -23,10 +30,17 @@ static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
     static const int clamps[] = { 3, 1, 0, 2 }; // by ag_clamp, as gather.comp numbers them
     char defines[96];
     const int block = block_of(device, pass), edge = block == 16 ? 4 : block == 4 ? 2 : 1;
-    snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s%s", edge, edge,
-             clamps[pass->clamp], pass->multires ? ";LIST=1" : "",
-             pass->visibility ? ";VISIBILITY=1" : "");
-    const fg_gl_program_desc desc = { .shaders = { &gather_comp }, .defines = defines };
+    fg_gl_program_desc desc = { .shaders = { &gather_comp }, .defines = defines };
+    if (by_stencil(pass)) {
+        desc.shaders[0] = &fullscreen_vert;
+        desc.shaders[1] = &gather_frag;
+        snprintf(defines, sizeof defines, "CLAMP=%d%s", clamps[pass->clamp],
+                 pass->visibility ? ";VISIBILITY=1" : "");
+    } else {
+        snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s%s", edge, edge,
+                 clamps[pass->clamp], pass->multires ? ";LIST=1" : "",
+                 pass->visibility ? ";VISIBILITY=1" : "");
+    }
     return fg_gl_program(device, &desc);
 }
 
@@ -53,19 +67,28 @@ static void dispatch_spans(const fg_run *run, const ag_gather_pass *pass, uint32
         if (first > 0)
             glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         glProgramUniform3i(program, 2, first, last ? pass->capacity : first + step, last);
-        if (pass->multires)
+        if (by_stencil(pass))
+            fg_gl_fullscreen(run);
+        else if (pass->multires)
             glDispatchComputeIndirect(offset);
         else
             fg_gl_dispatch_2d(size[0], size[1], edge, edge);
     }
 }
 
-static void bind_list(const fg_run *run, const ag_multires_pass *m, uint32_t program)
+static void bind_texels(const fg_run *run, const ag_multires_pass *m, uint32_t program)
 {
+    glProgramUniform2i(program, 3, m->pyramid.base[0], m->pyramid.base[1]);
+    if (m->cull == AG_CULL_STENCIL) {
+        glDepthFunc(GL_ALWAYS);
+        glEnable(GL_STENCIL_TEST);
+        glStencilFunc(GL_EQUAL, 1, 0xff);
+        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+        return;
+    }
     fg_gl_storage(run, 2, m->texels);
     fg_gl_storage(run, 3, m->count);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, fg_run_object(run, m->count));
-    glProgramUniform2i(program, 3, m->pyramid.base[0], m->pyramid.base[1]);
 }
 
 static fg_status run_gather(const fg_run *run, void *user)
@@ -84,7 +107,7 @@ static fg_status run_gather(const fg_run *run, void *user)
     if (pass->clamp == AG_CLAMP_CONSTANT)
         glProgramUniform1f(program, 0, pass->clamp_d2);
     if (pass->multires)
-        bind_list(run, pass->multires, program);
+        bind_texels(run, pass->multires, program);
     const int block = block_of(device, pass);
     if (pass->clamp == AG_CLAMP_FOOTPRINT)
         glProgramUniform1i(program, 1, block);
@@ -119,6 +142,7 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
     }
     snprintf(name, sizeof name, "%s.gather", desc->prefix);
     const ag_multires_pass every_pixel = { 0 }, *m = desc->multires ? desc->multires : &every_pixel;
+    const ag_multires_pass listed = by_stencil(pass) ? every_pixel : *m;
     const ag_ism_pass unshadowed = { 0 }, *ism = desc->visibility ? desc->visibility : &unshadowed;
     const fg_tex_desc tex = {
         .format = FG_RGBA32F,
@@ -131,7 +155,7 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
     const fg_load load = pass->multires ? FG_LOAD_KEEP : FG_LOAD_DISCARD;
     const fg_pass_desc gather = {
         .name = name,
-        .kind = FG_KIND_COMPUTE,
+        .kind = by_stencil(pass) ? FG_KIND_RASTER : FG_KIND_COMPUTE,
         .reads = {
             { scene->view, FG_USE_UNIFORM },
             { pass->position },
@@ -140,9 +164,10 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
             { pass->count },
             { ism->maps, .optional = true },
             { ism->eyes, .optional = true },
-            { m->texels, .optional = true },
-            { m->count, .optional = true },
-            { m->count, FG_USE_INDIRECT, .optional = true },
+            { listed.texels, .optional = true },
+            { listed.count, .optional = true },
+            { listed.count, FG_USE_INDIRECT, .optional = true },
+            { m->stencil, FG_USE_DEPTH, .optional = true },
         },
         .writes = { { pass->out, FG_USE_IMAGE, load } },
         .run = run_gather,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <pass/multires.h>
 
+#include "fullscreen_vert.h"
 #include "list_comp.h"
 #include "refine_comp.h"
+#include "stencil_frag.h"
 #include "valid_comp.h"
 
 #include <epoxy/gl.h>
@@ -99,6 +101,27 @@ static fg_status run_list(const fg_run *run, void *user)
     return FG_OK;
 }
 
+static fg_status run_stencil(const fg_run *run, void *user)
+{
+    const ag_multires_pass *pass = user;
+    const fg_gl_program_desc desc = { .shaders = { &fullscreen_vert, &stencil_frag } };
+    const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
+    if (!program)
+        return FG_ERR_SHADER;
+    fg_gl_storage(run, 0, pass->tiles);
+    glProgramUniform4i(program, 0, pass->pyramid.base[0], pass->pyramid.base[1],
+                       pass->pyramid.levels, tiles_across(pass));
+    glProgramUniform1i(program, 1, tiles_down(pass));
+    glUseProgram(program);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_ALWAYS);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, 1, 0xff);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    fg_gl_fullscreen(run);
+    return FG_OK;
+}
+
 int ag_multires_levels(int width, int height, int coarsest)
 {
     const int longer = width > height ? width : height;
@@ -123,12 +146,29 @@ static void declare_buffers(ag_multires_pass *pass, fg_graph *g, const char *pre
         flags += (uint64_t) (pass->pyramid.base[0] >> l) * (uint64_t) (pass->pyramid.base[1] >> l);
     pass->flags = buffer(g, prefix, "flags", flags * sizeof(uint32_t));
     pass->tiles = buffer(g, prefix, "tiles", tiles * 4 * sizeof(uint32_t));
-    if (pass->cull == AG_CULL_COMPACT) {
-        pass->sums =
-            buffer(g, prefix, "tile_sums", (uint64_t) tile_groups(pass) * sizeof(uint32_t));
-        pass->texels = buffer(g, prefix, "texels", (uint64_t) pass->capacity * sizeof(uint32_t));
-        pass->count = buffer(g, prefix, "texel_count", 16 * sizeof(uint32_t));
-    }
+    pass->sums = buffer(g, prefix, "tile_sums", (uint64_t) tile_groups(pass) * sizeof(uint32_t));
+    pass->texels = buffer(g, prefix, "texels", (uint64_t) pass->capacity * sizeof(uint32_t));
+    pass->count = buffer(g, prefix, "texel_count", 16 * sizeof(uint32_t));
+}
+
+static void declare_stencil(ag_multires_pass *pass, fg_graph *g, const char *prefix)
+{
+    char name[64];
+    const fg_tex_desc tex = {
+        .format = FG_DEPTH24_STENCIL8,
+        .width = pass->pyramid.size[0],
+        .height = pass->pyramid.size[1],
+    };
+    snprintf(name, sizeof name, "%s.stencil", prefix);
+    pass->stencil = fg_texture(g, name, &tex);
+    const fg_pass_desc mark = {
+        .name = name,
+        .reads = { { pass->tiles } },
+        .writes = { { pass->stencil, FG_USE_DEPTH, FG_LOAD_CLEAR } },
+        .run = run_stencil,
+        .user = pass,
+    };
+    fg_passes(g, &mark, 1);
 }
 
 static void declare_passes(ag_multires_pass *pass, fg_graph *g, const char *prefix)
@@ -168,7 +208,7 @@ static void declare_passes(ag_multires_pass *pass, fg_graph *g, const char *pref
             .user = pass,
         },
     };
-    fg_passes(g, passes, pass->cull == AG_CULL_COMPACT ? 3 : 2);
+    fg_passes(g, passes, FG_COUNT(passes));
 }
 
 static bool check(fg_graph *g, const ag_multires_desc *desc)
@@ -224,4 +264,6 @@ void ag_multires_declare(ag_multires_pass *pass, fg_graph *g, const ag_scene_res
     ag_variation_declare(&pass->variation, g, scene, &variation);
     declare_buffers(pass, g, desc->prefix);
     declare_passes(pass, g, desc->prefix);
+    if (desc->cull == AG_CULL_STENCIL)
+        declare_stencil(pass, g, desc->prefix);
 }

@@ -23,6 +23,17 @@ ivec2 multires_place(multires_texel t, ivec2 base)
     return pyramid_origin(base, t.level) + t.at;
 }
 
+// What stands there. Right of and above the levels' images it is none of theirs.
+multires_texel multires_at_place(ivec2 place, ivec2 base)
+{
+    if (place.x < base.x)
+        return multires_texel(0, place);
+    int level = 1;
+    while (level < 15 && place.y >= pyramid_origin(base, level + 1).y)
+        level++;
+    return multires_texel(level, place - pyramid_origin(base, level));
+}
+
 // flags: a word a texel of levels 1 and coarser, rows of a level in turn, the levels in turn.
 const uint multires_refined = 1u; // what is valid is on finer levels
 const uint multires_mixed = 2u;   // it holds an edge or reaches beyond the image

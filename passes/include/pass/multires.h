@@ -23,15 +23,15 @@ FG_BEGIN
 // With `share` above 0 the levels below are not refined to pixel by pixel: a block of level `share`
 // that holds an edge is covered by its surfaces, and of each one pixel is valid for all.
 //
-// Passes "PREFIX.eye_variation", "PREFIX.refine", "PREFIX.valid", and "PREFIX.list" or
-// "PREFIX.stencil".
+// Passes "PREFIX.eye_variation", "PREFIX.refine", "PREFIX.valid", "PREFIX.list" and, with
+// AG_CULL_STENCIL, "PREFIX.stencil".
 //
 // Shapes: flags: uint of each texel of levels 1 .. levels - 1; tiles: uvec4 of each 8 x 8 pixels:
 // what
 //         is valid; see passes/multires/texel.glsl.
 //         texels: uint[capacity], the valid texels that show a surface, as multires_pack() makes
 //         them; count: uvec4, x how many those are, yzw 0; then indirect dispatches of as many work
-//         groups as take 64, 256 and 1024 each, 16 bytes apart. Both COMPACT only.
+//         groups as take 64, 256 and 1024 each, 16 bytes apart.
 //         stencil: depth-stencil of the pyramid's size, stencil 1 at those texels. STENCIL only.
 // Source: Nichols, Shopf, Wyman 2009, sec. 3.2.1.
 //         Departs from it: 2:1 balance; departure from a plane as a metric; `share`; a texel never

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// Irradiance of receivers from all VPLs: gather.comp and gather.frag. BLOCK_X, BLOCK_Y: receivers of
+// one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint.
+//
+// E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
+// Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5.
+//         Departs from it: eq. 5 has A_j on top of the fraction, which makes watts of W/m^2.
+//         CLAMP 3: near a VPL the exact form factor of its patch, by Lambert's formula for
+//         polygons; a disc seen from beside its rim is far off.
+#include "passes/include/pass/view_shared.h"
+#include "passes/include/pass/vpl_shared.h"
+#ifdef VISIBILITY
+#include "passes/ism/visibility.glsl"
+#endif
+
+#ifndef BLOCK_X
+#define BLOCK_X 2
+#define BLOCK_Y 2
+#endif
+#ifndef CLAMP
+#define CLAMP 3
+#endif
+
+const int block = BLOCK_X * BLOCK_Y;
+const int group = 8;
+const int tile = 64; // VPLs of one partial sum
+const float pi = 3.14159265358979;
+
+#ifdef FRAGMENT
+layout(early_fragment_tests) in;
+#else
+layout(local_size_x = group, local_size_y = group) in;
+#endif
+
+layout(binding = 0) uniform sampler2D position_map;
+layout(binding = 1) uniform sampler2D normal_map;
+#if defined(LIST) || defined(FRAGMENT)
+#include "passes/multires/receiver.glsl"
+#endif
+layout(std430, binding = 0) readonly buffer vpl_buffer
+{
+    ag_vpl vpls[];
+};
+layout(std430, binding = 1) readonly buffer count_buffer
+{
+    uvec4 count;
+};
+#if CLAMP == 2
+layout(location = 0) uniform float clamp_d2; // m^2
+#endif
+// VPLs of this dispatch: x first, y one past the last; z 1: no dispatch follows. Until then the image
+// holds the sum, without its factor.
+layout(location = 2) uniform ivec3 span;
+layout(binding = 0, rgba32f) uniform image2D indirect;
+
+// Receivers of one invocation lie `group` pixels, or 64 texels of the list, apart, so that neighbours
+// load neighbours. place_of(): where a receiver's sum stands.
+#ifdef FRAGMENT
+layout(location = 3) uniform ivec2 base; // size of level 0 in the pyramid
+
+bool is_there(int i)
+{
+    return true;
+}
+
+ivec2 place_of(int i)
+{
+    return ivec2(gl_FragCoord.xy);
+}
+
+void fetch_receiver(int i, out vec3 position, out vec3 normal)
+{
+    multires_receiver(multires_at_place(place_of(i), base), position, normal);
+}
+#elif defined(LIST)
+layout(std430, binding = 2) readonly buffer texel_buffer
+{
+    uint texels[];
+};
+layout(std430, binding = 3) readonly buffer texel_count_buffer
+{
+    uvec4 texel_count;
+};
+layout(location = 3) uniform ivec2 base; // size of level 0 in the pyramid
+
+uint receiver(int i)
+{
+    uint group_index = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    return (group_index * block + i) * group * group + gl_LocalInvocationIndex;
+}
+
+bool is_there(int i)
+{
+    return receiver(i) < texel_count.x;
+}
+
+multires_texel texel_of(int i)
+{
+    return multires_unpack(texels[min(receiver(i), texel_count.x - 1u)]);
+}
+
+ivec2 place_of(int i)
+{
+    return multires_place(texel_of(i), base);
+}
+
+void fetch_receiver(int i, out vec3 position, out vec3 normal)
+{
+    multires_receiver(texel_of(i), position, normal);
+}
+#else
+ivec2 receiver(int i)
+{
+    ivec2 base = ivec2(gl_WorkGroupID.xy) * group * ivec2(BLOCK_X, BLOCK_Y);
+    return base + ivec2(gl_LocalInvocationID.xy) + group * ivec2(i % BLOCK_X, i / BLOCK_X);
+}
+
+bool is_there(int i)
+{
+    return all(lessThan(receiver(i), view.size.xy));
+}
+
+ivec2 place_of(int i)
+{
+    return min(receiver(i), view.size.xy - 1);
+}
+
+void fetch_receiver(int i, out vec3 position, out vec3 normal)
+{
+    position = texelFetch(position_map, place_of(i), 0).xyz;
+    normal = texelFetch(normal_map, place_of(i), 0).xyz;
+}
+#endif
+
+#if CLAMP == 3
+#include "passes/gather/near.glsl"
+
+layout(location = 1) uniform int block_size; // block, but not for the compiler to unroll
+
+// Adds `near` ones of the VPLs from `start` on to the image. Rare and long, so it stands aside of the
+// loop over all VPLs and fetches its receivers anew.
+void correct_near(int start, uvec2 near, float unit)
+{
+    for (; (near.x | near.y) != 0u; near = near.x != 0u ? uvec2(near.x & (near.x - 1u), near.y)
+                                                        : uvec2(0u, near.y & (near.y - 1u))) {
+        int j = start + (near.x != 0u ? findLSB(near.x) : 32 + findLSB(near.y));
+        vec3 q = vpls[j].position_area.xyz * unit;
+        float area = vpls[j].position_area.w * unit * unit;
+        for (int i = 0; i < block_size; i++) {
+            vec3 p, n;
+            fetch_receiver(i, p, n);
+            vec3 d = q - p * unit;
+            float d2 = dot(d, d);
+            float cos_j = max(-dot(vpls[j].normal.xyz, d), 0.0);
+            if (!patch_is_near(d2, cos_j, area))
+                continue;
+            n /= max(length(n), 1e-6);
+            float share = patch_share(d, n, vpls[j], area, cos_j);
+#ifdef VISIBILITY
+            share *= ism_visibility(ism_map_of(j, int(count.x)), q - d, n);
+#endif
+            if (is_there(i)) {
+                vec4 old = imageLoad(indirect, place_of(i));
+                imageStore(indirect, place_of(i), old + vec4(vpls[j].flux.rgb * share, 0.0));
+            }
+        }
+    }
+}
+#endif
+
+void main()
+{
+    vec3 p[block], n[block], sum[block];
+    // Lengths in units of about the scene: d^4 stays in range at any scale. The unit is a power of
+    // two, so the scaling rounds nothing.
+    float unit = view.scale.x;
+    int total = min(int(count.x), span.y);
+    if (span.x > 0 && span.x >= total && span.z == 0)
+        return;
+    for (int i = 0; i < block; i++) {
+        fetch_receiver(i, p[i], n[i]);
+        p[i] *= unit;
+        n[i] /= max(length(n[i]), 1e-6);
+        sum[i] = vec3(0.0);
+#if CLAMP == 3
+        if (span.x == 0 && is_there(i))
+            imageStore(indirect, place_of(i), vec4(0.0));
+#endif
+    }
+#if CLAMP == 2
+    float least = pi * clamp_d2 * unit * unit;
+#endif
+    for (int start = span.x; start < total; start += tile) {
+        vec3 part[block];
+        for (int i = 0; i < block; i++)
+            part[i] = vec3(0.0);
+#if CLAMP == 3
+        uvec2 near = uvec2(0u);
+#endif
+        int end = min(start + tile, total);
+        for (int j = start; j < end; j++) {
+            vec3 q = vpls[j].position_area.xyz * unit;
+            vec3 m = vpls[j].normal.xyz;
+            vec3 flux = vpls[j].flux.rgb;
+            float area = vpls[j].position_area.w * unit * unit;
+#if CLAMP == 3
+            bool any_near = false;
+#endif
+#ifdef VISIBILITY
+            int map = ism_map_of(j, int(count.x));
+#endif
+            for (int i = 0; i < block; i++) {
+                vec3 d = q - p[i];
+                float d2 = dot(d, d);
+                float cos_i = max(dot(n[i], d), 0.0);  // times |d|
+                float cos_j = max(-dot(m, d), 0.0);    // times |d|
+#if CLAMP == 0
+                float spread = pi * d2;
+#elif CLAMP == 2
+                float spread = max(pi * d2, least);
+#else
+                float spread = pi * d2 + area;
+#endif
+                // d = 0 gives 0: both cosines are.
+                float share = cos_i * cos_j / max(d2 * spread, 1e-36);
+#if CLAMP == 3
+                bool is_near = patch_is_near(d2, cos_j, area);
+                share = is_near ? 0.0 : share;
+                any_near = any_near || is_near;
+#endif
+#ifdef VISIBILITY
+                if (share > 0.0)
+                    share *= ism_visibility(map, p[i], n[i]);
+#endif
+                part[i] += flux * share;
+            }
+#if CLAMP == 3
+            if (any_near)
+                near[(j - start) >> 5] |= 1u << ((j - start) & 31);
+#endif
+        }
+        for (int i = 0; i < block; i++)
+            sum[i] += part[i];
+#if CLAMP == 3
+        correct_near(start, near, unit);
+#endif
+    }
+    for (int i = 0; i < block; i++) {
+        if (!is_there(i))
+            continue;
+        ivec2 at = place_of(i);
+#if CLAMP != 3
+        if (span.x > 0)
+#endif
+            sum[i] += imageLoad(indirect, at).rgb;
+        float factor = span.z != 0 ? unit * unit / pi : 1.0;
+        imageStore(indirect, at, vec4(min(sum[i] * factor, vec3(3.0e38)), 1.0));
+    }
+}
