@@ -147,10 +147,11 @@ STUDY = ['--gi', 'rsm', '--set', 'rsm_size=16', '--set', 'vpls=16', '--size', '1
 
 
 def studies_are_measured_and_drawn(folder):
-    run = succeeds('report', 'cornell', *STUDY, '--study', 'stages', '--study', 'solid_angle', '-o', folder)
+    names = ['stages', 'vpls', 'solid_angle']
+    run = succeeds('report', 'cornell', *STUDY, *[word for name in names for word in ('--study', name)], '-o', folder)
     report = load(folder)
-    assert report['records'] == [] and [s['name'] for s in report['studies']] == ['stages', 'solid_angle']
-    stages, angle = report['studies']
+    assert report['records'] == [] and [s['name'] for s in report['studies']] == names
+    stages, count, angle = report['studies']
     for study in report['studies']:
         assert study['scene'] == 'cornell' and study['title'] and {p['plugin'] for p in study['points']} == {'rsm'}
         for point in study['points']:
@@ -166,11 +167,14 @@ def studies_are_measured_and_drawn(folder):
     assert exact[1]['reference'] == 'path1_unshadowed' and exact[1]['rmse'] > 0
     assert any('stages is without isr, splat' in line for line in run.lines('warning')), run
     assert any('stages is without isr, splat' in note for note in report['notes'])
-    for name in ['stages_0', 'solid_angle_0', 'solid_angle_1']:
+    # Sixteen texels along an edge: 256 VPLs are all there are.
+    errors = [p['errors'][0]['rmse'] for p in count['points'] if p['curve'] == 'regular']
+    assert [p['x'] for p in count['points']][:3] == [16, 64, 256] and errors[0] > errors[1] > errors[2] == 0, errors
+    for name in ['stages_0', 'solid_angle_0', 'solid_angle_1', 'vpls_0', 'vpls_1']:
         assert os.path.getsize('%s/plots/cornell_study_%s.svg' % (folder, name)) > 1000
     with open(folder + '/report.html') as f:
         page = f.read()
-    assert stages['title'] in page and page.count('<svg') == 3
+    assert stages['title'] in page and page.count('<svg') == 5
 
 
 def a_path_is_walked_where_something_moves(folder):
