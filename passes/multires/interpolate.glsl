@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Values of a multiresolution image at texels that hold no edge, and between them.
+#include "passes/multires/bilinear.glsl"
 #include "passes/multires/texel.glsl"
 
 layout(std430, binding = 0) readonly buffer flag_buffer
 {
     uint flags[];
 };
+#ifdef SAMPLED
+layout(binding = 2) uniform sampler2D pyramid;
+#else
 layout(binding = 0, rgba32f) uniform image2D pyramid;
+#endif
 layout(location = 0) uniform ivec2 base; // size of level 0
-layout(location = 1) uniform int levels;
 
 uint flags_of(int level, ivec2 at)
 {
@@ -17,7 +21,12 @@ uint flags_of(int level, ivec2 at)
 
 vec4 value_of(int level, ivec2 at)
 {
-    return imageLoad(pyramid, pyramid_origin(base, level) + at);
+    ivec2 place = pyramid_origin(base, level) + at;
+#ifdef SAMPLED
+    return texelFetch(pyramid, place, 0);
+#else
+    return imageLoad(pyramid, place);
+#endif
 }
 
 // Whether the texel is there and all of one surface.
@@ -36,12 +45,6 @@ vec4 beside(int level, ivec2 at, ivec2 step_, vec4 mine)
     if (is_smooth(level, at - step_))
         return max(2.0 * mine - value_of(level, at - step_), 0.0);
     return mine;
-}
-
-// `f` of the way from `mine` to the others. Equal ones give exactly what they are.
-vec4 bilinear(vec4 mine, vec4 x, vec4 y, vec4 corner, vec2 f)
-{
-    return mine + (x - mine) * f.x + (y - mine) * f.y + (corner - x - y + mine) * (f.x * f.y);
 }
 
 // Texel `at` of `level` from the four nearest on the next coarser level; the one above it is of one

@@ -131,6 +131,14 @@ int ag_multires_levels(int width, int height, int coarsest)
     return level + 1;
 }
 
+int ag_multires_flag_start(const ag_multires_pass *pass, int level)
+{
+    int start = 0;
+    for (int l = 1; l < level; l++)
+        start += (pass->pyramid.base[0] >> l) * (pass->pyramid.base[1] >> l);
+    return start;
+}
+
 static fg_res buffer(fg_graph *g, const char *prefix, const char *what, uint64_t bytes)
 {
     char name[64];
@@ -141,9 +149,7 @@ static fg_res buffer(fg_graph *g, const char *prefix, const char *what, uint64_t
 static void declare_buffers(ag_multires_pass *pass, fg_graph *g, const char *prefix)
 {
     const uint64_t tiles = (uint64_t) tiles_across(pass) * (uint64_t) tiles_down(pass);
-    uint64_t flags = 0;
-    for (int l = 1; l < pass->pyramid.levels; l++)
-        flags += (uint64_t) (pass->pyramid.base[0] >> l) * (uint64_t) (pass->pyramid.base[1] >> l);
+    const uint64_t flags = (uint64_t) ag_multires_flag_start(pass, pass->pyramid.levels);
     pass->flags = buffer(g, prefix, "flags", flags * sizeof(uint32_t));
     pass->tiles = buffer(g, prefix, "tiles", tiles * 4 * sizeof(uint32_t));
     pass->sums = buffer(g, prefix, "tile_sums", (uint64_t) tile_groups(pass) * sizeof(uint32_t));

@@ -75,6 +75,9 @@ FG_API void ag_multires_declare(ag_multires_pass *pass, fg_graph *g, const ag_sc
 // edge, or the image AG_MAX_LEVELS halvings.
 FG_API int ag_multires_levels(int width, int height, int coarsest);
 
+// Where the words of a level begin in `flags`.
+FG_API int ag_multires_flag_start(const ag_multires_pass *pass, int level);
+
 // Interpolates a multiresolution image to every pixel: passes "PREFIX.push..." and
 // "PREFIX.upsample".
 //
@@ -88,7 +91,8 @@ FG_API int ag_multires_levels(int width, int height, int coarsest);
 //         as used in Nichols, Shopf, Wyman 2009, sec. 3.2.2.
 typedef struct ag_upsample_pass {
     const ag_multires_pass *multires;
-    fg_res image;
+    fg_res image;         // with the values that interpolation needs
+    fg_res blocks, cells; // with share > 0
     fg_res out;
 } ag_upsample_pass;
 
