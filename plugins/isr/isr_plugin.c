@@ -68,6 +68,15 @@ static const gi_param params[] = {
     { .name = NULL },
 };
 
+enum { LEVEL_LAYER, VALIDITY_LAYER };
+
+static const gi_layer layers[] = {
+    [LEVEL_LAYER] = { "level", "which level lights each pixel, blue the finest; white: lit pixels "
+                               "of shared blocks" },
+    [VALIDITY_LAYER] = { "validity", "the flattened multiresolution buffer: what is lit" },
+    { NULL },
+};
+
 typedef struct isr {
     gi_env env;
     gi_value values[PARAM_COUNT];
@@ -76,6 +85,7 @@ typedef struct isr {
     ag_multires_pass eye;
     ag_gather_pass gather;
     ag_upsample_pass upsample;
+    ag_multires_debug debug;
     ag_readback vpl_count, texel_count;
 } isr;
 
@@ -146,7 +156,10 @@ static void isr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
     ag_gather_declare(&s->gather, g, &in->scene, &in->gbuffer, &s->vpl, &gather);
     ag_upsample_declare(&s->upsample, g, &s->eye, s->gather.out, "isr");
     ag_readback_declare(&s->texel_count, g, "isr.count_texels", s->eye.count, 4 * sizeof(uint32_t));
+    ag_multires_debug_declare(&s->debug, g, &s->eye, "isr");
     out->indirect = s->upsample.out;
+    out->layers[LEVEL_LAYER] = s->debug.levels;
+    out->layers[VALIDITY_LAYER] = s->debug.validity;
 }
 
 static int isr_counters(void *self, gi_counter *out, int max)
@@ -171,6 +184,7 @@ static const gi_plugin plugin = {
     .summary = "one diffuse bounce, gathered from VPLs where the image needs it and interpolated "
                "between; no indirect visibility",
     .params = params,
+    .layers = layers,
     .needs = AG_FEATURE_LIGHT | AG_FEATURE_GEOMETRY,
     .create = isr_create,
     .set = isr_set,

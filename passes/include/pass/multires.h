@@ -99,6 +99,21 @@ typedef struct ag_upsample_pass {
 FG_API void ag_upsample_declare(ag_upsample_pass *pass, fg_graph *g,
                                 const ag_multires_pass *multires, fg_res image, const char *prefix);
 
+// The buffer to look at: passes "PREFIX.level_layer" and "PREFIX.validity_layer", left out while
+// nobody reads what they make.
+//
+// Shapes: levels RGBA16F of the frame's size: the level that covers each pixel, from blue, the
+//         finest, to red; black where nothing is. Shared blocks are black with their lit pixels
+//         white. validity RGBA16F of the pyramid's size: white at valid texels that show a surface.
+// Units:  display values in [0, 1].
+typedef struct ag_multires_debug {
+    const ag_multires_pass *multires;
+    fg_res levels, validity;
+} ag_multires_debug;
+
+FG_API void ag_multires_debug_declare(ag_multires_debug *pass, fg_graph *g,
+                                      const ag_multires_pass *multires, const char *prefix);
+
 FG_END
 
 #endif // PASS_MULTIRES_H
