@@ -20,7 +20,8 @@ enum {
     GI_EYE_SHARE,
     GI_EYE_METRIC,
     GI_EYE_BALANCED,
-    GI_EYE_CULL,
+    GI_EYE_PATCH_ROWS, // GI_EYE_PATCH_PARAMS(): of who has no use for culling
+    GI_EYE_CULL = GI_EYE_PATCH_ROWS,
     GI_EYE_ROWS,
 };
 
@@ -29,7 +30,7 @@ static const char *const gi_eye_culls[] = { "compact", "stencil", NULL };
 static const double gi_eye_normal_sweep[] = { 2, 1, 0.5, 0.25, 0.1, 0, (double) NAN };
 
 // clang-format off
-#define GI_EYE_PARAMS(first)                                                                       \
+#define GI_EYE_PATCH_PARAMS(first)                                                                 \
     [(first) + GI_EYE_DEPTH] = { .name = "depth", .type = GI_FLOAT, .unit = "1", .min = 0,         \
         .max = 1e6, .def = 0.005,                                                                  \
         .help = "depth derivative, over the distance, from which on a texel is refined" },         \
@@ -46,15 +47,18 @@ static const double gi_eye_normal_sweep[] = { 2, 1, 0.5, 0.25, 0.1, 0, (double) 
         .choices = gi_eye_metrics,                                                                 \
         .help = "depth derivative: departure from a plane, or the paper's slope" },                \
     [(first) + GI_EYE_BALANCED] = { .name = "balanced", .type = GI_BOOL, .unit = "1", .def = 1,    \
-        .help = "levels of neighbours differ by one at most" },                                    \
+        .help = "levels of neighbours differ by one at most" }
+
+#define GI_EYE_PARAMS(first)                                                                       \
+    GI_EYE_PATCH_PARAMS(first),                                                                    \
     [(first) + GI_EYE_CULL] = { .name = "cull", .type = GI_ENUM, .unit = "1",                      \
         .choices = gi_eye_culls,                                                                   \
         .help = "what is not valid: left out of a list, or by the paper's stencil" }
 // clang-format on
 
 // `values`: from the row of GI_EYE_DEPTH on.
-static inline ag_multires_desc gi_eye_desc(const char *prefix, const gi_value *values, int width,
-                                           int height)
+static inline ag_multires_desc gi_eye_patch_desc(const char *prefix, const gi_value *values,
+                                                 int width, int height)
 {
     ag_multires_desc desc = { 0 };
     desc.prefix = prefix;
@@ -66,6 +70,13 @@ static inline ag_multires_desc gi_eye_desc(const char *prefix, const gi_value *v
     desc.share = (int) values[GI_EYE_SHARE].i;
     desc.metric = (ag_depth_metric) values[GI_EYE_METRIC].i;
     desc.unbalanced = values[GI_EYE_BALANCED].i == 0;
+    return desc;
+}
+
+static inline ag_multires_desc gi_eye_desc(const char *prefix, const gi_value *values, int width,
+                                           int height)
+{
+    ag_multires_desc desc = gi_eye_patch_desc(prefix, values, width, height);
     desc.cull = (ag_cull) values[GI_EYE_CULL].i;
     return desc;
 }
