@@ -248,7 +248,7 @@ static void declare_output(renderer *r, const ag_scene_res *scene, const gi_outp
 // For messages: "direct", "isr.level".
 static const char *layer_name(const renderer *r, renderer_layer layer, char *text, size_t size)
 {
-    const int i = layer - LAYER_PLUGIN;
+    const int i = (int) layer - (int) LAYER_PLUGIN;
     if (layer < LAYER_COUNT)
         return renderer_layer_names[layer];
     if (r->plugin && i < gi_layers_count(r->plugin))

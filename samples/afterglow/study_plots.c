@@ -181,32 +181,36 @@ static void write_stages(FILE *f, const study *s, const cJSON *points)
 
 // ---- along the animation ---------------------------------------------------------------------
 
+static void write_walk(FILE *f, const cJSON *points, const char *label, int number)
+{
+    const cJSON *point, *ms;
+    fprintf(f, "$c%d << END_OF_DATA\n", number);
+    cJSON_ArrayForEach(point, points)
+    {
+        const cJSON *path = cJSON_GetObjectItem(point, "path");
+        const cJSON *seconds = cJSON_GetObjectItem(path, "seconds");
+        int i = 0;
+        if (!of_curve(point, label))
+            continue;
+        cJSON_ArrayForEach(ms, cJSON_GetObjectItem(path, "ms"))
+        {
+            write_number(f, cJSON_GetNumberValue(cJSON_GetArrayItem(seconds, i++)));
+            write_number(f, cJSON_GetNumberValue(ms));
+            fputc('\n', f);
+        }
+    }
+    fprintf(f, "NaN NaN\nEND_OF_DATA\n");
+}
+
 static void write_path(FILE *f, const study *s, const cJSON *points)
 {
-    const cJSON *point;
-    int count = 0, drawn = 0;
+    int drawn = 0;
     fprintf(f, "set key outside right top\nset xlabel 'time of the animation, s'\n"
                "set ylabel 'frame, ms'\nset yrange [0:*]\n");
-    for (; s->curves[count].label; ++count) {
-        fprintf(f, "$c%d << END_OF_DATA\n", count);
-        cJSON_ArrayForEach(point, points)
-        {
-            const cJSON *path = cJSON_GetObjectItem(point, "path"), *ms;
-            const cJSON *seconds = cJSON_GetObjectItem(path, "seconds");
-            int i = 0;
-            if (!of_curve(point, s->curves[count].label))
-                continue;
-            cJSON_ArrayForEach(ms, cJSON_GetObjectItem(path, "ms"))
-            {
-                write_number(f, cJSON_GetNumberValue(cJSON_GetArrayItem(seconds, i++)));
-                write_number(f, cJSON_GetNumberValue(ms));
-                fputc('\n', f);
-            }
-        }
-        fprintf(f, "NaN NaN\nEND_OF_DATA\n");
-    }
+    for (int i = 0; s->curves[i].label; ++i)
+        write_walk(f, points, s->curves[i].label, i);
     fprintf(f, "plot ");
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; s->curves[i].label; ++i) {
         if (!has_curve(points, s->curves[i].label))
             continue;
         fprintf(f, "%s$c%d using 1:2 with lines lw 1.8 lc rgb '%s' title ", drawn++ ? ", " : "", i,
