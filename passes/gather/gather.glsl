@@ -207,7 +207,7 @@ void main()
             bool any_near = false;
 #endif
 #ifdef VISIBILITY
-            int map = ism_map_of(j, int(count.x));
+            ism_map map = ism_open(ism_map_of(j, int(count.x)));
 #endif
             for (int i = 0; i < block; i++) {
                 vec3 d = q - p[i];

@@ -11,7 +11,7 @@
 enum {
     PLACE_GROUP = 256,
     DEFAULT_SIZE = 64,
-    DEFAULT_POINTS = 4096,
+    DEFAULT_POINTS = 8192,
     DEFAULT_MAPS = 1024,
     MAX_MAPS = 2048, // layers of an array that every device has
     MIN_POINTS = 256,

@@ -8,8 +8,9 @@
 // Source: Ritschel et al. 2008, sec. 4.2 and 4.3; pull-push after Marroquim, Kraus, Cavalcanti,
 //         Efficient Point-Based Rendering Using Image Reconstruction, PBG 2007.
 //         Departs from it: a splat is the point's disc in its triangle's plane, not a box of one
-//         depth; reciprocal distances, which are linear over a plane, so that the mean of a
-//         plane's texels is that plane's.
+//         depth, and may miss all texels' middles; reciprocal distances, which are linear over a
+//         plane, so that the mean of a plane's texels is that plane's; holes are closed inside
+//         surfaces alone.
 #include "passes/include/pass/ism_shared.h"
 #include "passes/include/pass/view_shared.h"
 #include "passes/include/pass/vpl_shared.h"
@@ -18,17 +19,16 @@
 const int group = 256;
 const int max_size = 64;
 const float pi = 3.14159265358979;
-// A disc has so many times the area that its point stands for: points lie as evenly as a grid's, and
-// from pi / 2 on discs on a square grid leave nothing open.
-const float overlap = 2.0;
+// A disc has the area that its point stands for, times this: a surface keeps its size, and what the
+// discs leave open of it is what pull-push is for.
+const float overlap = 1.0;
 // Discs near the eye are cut to so many texels about their middle: 32768 / 256 points of 17 x 17 stay
 // below the 65535 rounds that Mesa's software renderer gives all loops of an invocation.
 const int reach = 8;
 // A plane seen flatter than this (sine) has no width in the map; the eye's own is one.
 const float flattest = 0.01;
-// Levels of the pyramid: holes up to this many times doubled texels are closed.
-const int levels = 3;
-// Reciprocal distances are one surface's within this ratio.
+const int levels = 3; // of the pyramid: the widest hole is 8 texels
+// Reciprocal distances are one surface's within this ratio; a lower one lies behind it.
 const float same_surface = 0.85;
 
 layout(local_size_x = group) in;
@@ -73,16 +73,16 @@ void splat(vec3 p, vec3 n, float radius)
     float r = length(p), height = dot(n, p);
     if (p.z <= 0.0 || abs(height) < flattest * r)
         return;
-    vec2 middle = paraboloid_texel(p, r, size);
+    vec2 middle = paraboloid_texel(p, r, float(size));
     float wide = min(0.5 * float(size) * radius / (r + p.z) * (1.0 + radius / r), float(reach));
     ivec2 at = ivec2(floor(middle)), low = ivec2(floor(middle - wide)),
           high = ivec2(floor(middle + wide));
     low = clamp(low, ivec2(0), at);
     high = clamp(high, at, ivec2(size - 1));
     at = min(at, size - 1);
-    for (int i = 0, width = high.x - low.x + 1; i < width * (high.y - low.y + 1); i++) {
-        ivec2 texel = low + ivec2(i % width, i / width);
-        vec3 ray = paraboloid_ray(texel, size);
+    for (ivec2 texel = low; texel.y <= high.y;
+         texel = texel.x < high.x ? texel + ivec2(1, 0) : ivec2(low.x, texel.y + 1)) {
+        vec3 ray = paraboloid_ray(texel, float(size));
         float w = dot(n, ray) / height; // 1 / distance of the plane
         vec3 off = ray - p * w;         // to the disc's middle, times w
         bool inside = w > 0.0 && dot(off, off) <= radius * radius * w * w;
@@ -109,40 +109,48 @@ void splat_all(int map, ag_ism_eye eye)
     }
 }
 
+// Sizes are powers of two; a division is slow where there is none for vectors.
+ivec2 texel_of(int i, int size)
+{
+    return ivec2(i & (size - 1), i >> findMSB(size));
+}
+
 float depth_at(int base, int size, ivec2 at)
 {
     return uintBitsToFloat(depths[base + at.y * size + at.x]);
 }
 
-// A coarser texel is the mean of those below that are near the nearest of them.
+// A coarser texel is the mean of those below that are on the nearest surface among them. One alone
+// is none: a lonely point grows no further.
 void pull(int from, int to, int size)
 {
     for (int i = int(gl_LocalInvocationIndex); i < size * size / 4; i += group) {
-        ivec2 at = 2 * ivec2(i % (size / 2), i / (size / 2));
+        ivec2 at = 2 * texel_of(i, size / 2);
         vec4 w = vec4(depth_at(from, size, at), depth_at(from, size, at + ivec2(1, 0)),
                       depth_at(from, size, at + ivec2(0, 1)), depth_at(from, size, at + ivec2(1)));
-        float nearest = max(max(w.x, w.y), max(w.z, w.w));
-        vec4 same = vec4(greaterThanEqual(w, vec4(max(same_surface * nearest, 1e-30))));
-        depths[to + i] = floatBitsToUint(dot(w, same) / max(dot(same, vec4(1.0)), 1.0));
+        float nearest = max(max(max(w.x, w.y), max(w.z, w.w)), 1e-30);
+        vec4 same = vec4(greaterThanEqual(w, vec4(same_surface * nearest)));
+        float n = dot(same, vec4(1.0));
+        depths[to + i] = n < 2.0 ? 0u : floatBitsToUint(dot(w, same) / n);
     }
 }
 
-// A hole is the coarser level's, between the four texels about it as far as they are near the one
-// that it lies in.
+// A texel that is empty, or shows what is behind the surface that the four coarser texels about it
+// all have, is a hole in that surface and closed. At its rim one of the four has it not, so that no
+// silhouette grows.
 void push(int from, int to, int size)
 {
     int coarse = size / 2;
     for (int i = int(gl_LocalInvocationIndex); i < size * size; i += group) {
-        if (depths[to + i] != 0u)
-            continue;
-        ivec2 at = ivec2(i % size, i / size), own = at / 2;
+        ivec2 at = texel_of(i, size), own = at / 2;
         ivec2 side = clamp(own + 2 * (at & 1) - 1, ivec2(0), ivec2(coarse - 1));
         vec4 w = vec4(depth_at(from, coarse, own), depth_at(from, coarse, ivec2(side.x, own.y)),
                       depth_at(from, coarse, ivec2(own.x, side.y)), depth_at(from, coarse, side));
-        vec4 same = vec4(greaterThanEqual(w, vec4(same_surface * w.x))) *
-                    vec4(lessThanEqual(w * same_surface, vec4(w.x))) * vec4(9.0, 3.0, 3.0, 1.0);
-        if (w.x > 0.0)
-            depths[to + i] = floatBitsToUint(dot(w, same) / dot(same, vec4(1.0)));
+        float middle = dot(w, vec4(9.0, 3.0, 3.0, 1.0)) / 16.0;
+        bool one_surface = w.x > 0.0 && all(greaterThanEqual(w, same_surface * w.xxxx)) &&
+                           all(lessThanEqual(same_surface * w, w.xxxx));
+        if (one_surface && uintBitsToFloat(depths[to + i]) < same_surface * middle)
+            depths[to + i] = floatBitsToUint(middle);
     }
 }
 
@@ -181,5 +189,5 @@ void main()
     if (me == 0)
         eyes[map] = eye;
     for (int i = me; i < size * size; i += group)
-        imageStore(maps, ivec3(i % size, i / size, map), vec4(uintBitsToFloat(depths[i])));
+        imageStore(maps, ivec3(texel_of(i, size), map), vec4(uintBitsToFloat(depths[i])));
 }

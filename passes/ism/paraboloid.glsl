@@ -4,15 +4,15 @@
 //         paraboloid reflects a parallel beam into all directions of a hemisphere.
 
 // Texels of a map of `size`, not whole: where `p` at distance `r` falls; p.z >= 0, r > 0.
-vec2 paraboloid_texel(vec3 p, float r, int size)
+vec2 paraboloid_texel(vec3 p, float r, float size)
 {
-    return (0.5 + 0.5 * p.xy / (r + p.z)) * float(size);
+    return (0.5 + 0.5 * p.xy / (r + p.z)) * size;
 }
 
 // The unit direction at the middle of a texel; beyond the horizon in the map's corners.
-vec3 paraboloid_ray(vec2 texel, int size)
+vec3 paraboloid_ray(vec2 texel, float size)
 {
-    vec2 a = (texel + 0.5) * (2.0 / float(size)) - 1.0;
+    vec2 a = (texel + 0.5) * (2.0 / size) - 1.0;
     float s = dot(a, a);
     return vec3(2.0 * a, 1.0 - s) / (1.0 + s);
 }

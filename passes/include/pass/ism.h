@@ -89,7 +89,7 @@ typedef struct ag_ism_desc {
     int capacity;       // of `vpls`, at least 1
     int size;           // texels along a map's edge: 8, 16, 32 or 64; 0: 64
     int points;         // samples of one map: a power of two in [256, 32768], at most as many as
-                        // there are samples; 0: 4096
+                        // there are samples; 0: 8192
     int maps; // [1, 2048]; no more than `capacity` are made. 0: 1024. 4 size^2 bytes each.
 } ag_ism_desc;
 

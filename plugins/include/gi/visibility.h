@@ -43,7 +43,7 @@ static const char *const gi_visibility_names[] = { "none", "ism", NULL };
                      .unit = "1",                                                                  \
                      .min = 256,                                                                   \
                      .max = 32768,                                                                 \
-                     .def = 4096,                                                                  \
+                     .def = 8192,                                                                  \
                      .power_of_two = true,                                                         \
                      .help = "point samples of the scene in each of them" }
 // clang-format on
