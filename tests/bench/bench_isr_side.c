@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Techniques whose frames run in turn, and their times.
+#include "bench_isr.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+double bench_now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double) t.tv_sec * 1e3 + (double) t.tv_nsec * 1e-6;
+}
+
+// ---- samples ---------------------------------------------------------------------------------
+
+void samples_add(samples *s, double ms)
+{
+    s->ms[s->count++ % MAX_FRAMES] = ms;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+double samples_median(const samples *s)
+{
+    double sorted[MAX_FRAMES];
+    const int n = s->count < MAX_FRAMES ? s->count : MAX_FRAMES;
+    memcpy(sorted, s->ms, sizeof sorted);
+    qsort(sorted, (size_t) n, sizeof *sorted, ascending);
+    return n ? 0.5 * (sorted[n / 2] + sorted[(n - 1) / 2]) : (double) NAN;
+}
+
+// ---- a side ----------------------------------------------------------------------------------
+
+// "a=1 b=2" over the defaults.
+static fg_status parse_values(const bench *b, side *s, const char *values)
+{
+    char word[96];
+    gi_params_default(s->table, s->set);
+    for (const char *at = values; at && *at;) {
+        const size_t length = strcspn(at, " ");
+        snprintf(word, sizeof word, "%.*s", (int) length, at);
+        if (gi_params_set(&b->log, s->table, s->set, word) != FG_OK)
+            return FG_ERR_UNSUPPORTED;
+        at += length + (at[length] == ' ');
+    }
+    return FG_OK;
+}
+
+static bool there_is(const bench *b, const char *plugin)
+{
+    const char *name;
+    for (int i = 0; (name = gi_name(b->registry, i)); i++)
+        if (!strcmp(name, plugin))
+            return true;
+    return false;
+}
+
+fg_status side_open(const bench *b, side *s, ag_scene *scene, int size)
+{
+    if (!there_is(b, s->plugin)) {
+        fprintf(stderr, "bench_isr: there is no plugin %s\n", s->plugin);
+        return FG_ERR_UNSUPPORTED;
+    }
+    s->table = gi_find(b->registry, s->plugin);
+    if (!s->table)
+        return FG_ERR_UNSUPPORTED;
+    s->set = calloc((size_t) gi_params_count(s->table) + 1, sizeof *s->set);
+    if (!s->set)
+        return FG_ERR_MEMORY;
+    const fg_status status = parse_values(b, s, s->values);
+    if (status != FG_OK)
+        return status;
+    return renderer_create(&(renderer_desc){ .log = &b->log,
+                                             .device = b->device,
+                                             .scene = scene,
+                                             .camera = b->has_camera ? &b->camera : NULL,
+                                             .width = size,
+                                             .height = size,
+                                             .plugin = s->table,
+                                             .values = s->set,
+                                             .layers = s->picture ? 1u << LAYER_INDIRECT : 0 },
+                           &s->r);
+}
+
+void side_close(side *s)
+{
+    renderer_destroy(s->r);
+    free(s->set);
+    s->r = NULL;
+    s->set = NULL;
+    side_forget(s);
+}
+
+fg_status side_set(const bench *b, side *s, const char *values)
+{
+    const fg_status status = parse_values(b, s, values);
+    return status == FG_OK ? renderer_set_plugin(s->r, s->table, s->set) : status;
+}
+
+void side_forget(side *s)
+{
+    s->frame.count = 0;
+    s->pass_count = 0;
+}
+
+static pass_time *find_pass(side *s, const char *name)
+{
+    for (int i = 0; i < s->pass_count; i++)
+        if (!strncmp(s->passes[i].name, name, sizeof s->passes[i].name - 1))
+            return &s->passes[i];
+    if (s->pass_count == MAX_PASSES)
+        return NULL;
+    pass_time *p = &s->passes[s->pass_count++];
+    *p = (pass_time){ .ms.count = 0 };
+    snprintf(p->name, sizeof p->name, "%s", name);
+    return p;
+}
+
+fg_status side_frame(const bench *b, side *s, double time)
+{
+    fg_timing t;
+    fg_status status = fg_gl_finish(b->device);
+    const double start = bench_now_ms();
+    if (status == FG_OK)
+        status = renderer_frame(s->r, time);
+    if (status == FG_OK)
+        status = fg_gl_finish(b->device); // its timings are there then
+    samples_add(&s->frame, bench_now_ms() - start);
+    for (int i = 0; status == FG_OK && fg_graph_timing(renderer_graph(s->r), i, &t); i++) {
+        pass_time *p = find_pass(s, t.pass);
+        if (p && t.gpu_ms >= 0)
+            samples_add(&p->ms, t.gpu_ms);
+    }
+    return status;
+}
+
+fg_status side_picture(side *s, image *out)
+{
+    return renderer_read(s->r, LAYER_INDIRECT, out);
+}
+
+double side_counter(side *s, const char *name)
+{
+    gi_counter counters[16];
+    const int count = renderer_counters(s->r, counters, FG_COUNT(counters));
+    for (int i = 0; i < count && i < FG_COUNT(counters); i++)
+        if (!strcmp(counters[i].name, name))
+            return counters[i].value;
+    return (double) NAN;
+}
+
+// ---- its passes ------------------------------------------------------------------------------
+
+bool step_is_gather(const char *step)
+{
+    return !strncmp(step, "gather", 6);
+}
+
+bool step_is_map(const char *step)
+{
+    return !strncmp(step, "face", 4);
+}
+
+bool step_is_fixed(const char *step)
+{
+    return !step_is_gather(step) && !step_is_map(step);
+}
+
+double side_sum(const side *s, bool (*wanted)(const char *step))
+{
+    const size_t length = strlen(s->plugin);
+    double sum = 0;
+    int found = 0;
+    for (int i = 0; i < s->pass_count; i++) {
+        const pass_time *p = &s->passes[i];
+        if (strncmp(p->name, s->plugin, length) != 0 || p->name[length] != '.' ||
+            !wanted(p->name + length + 1))
+            continue;
+        sum += samples_median(&p->ms);
+        found++;
+    }
+    return found ? sum : (double) NAN;
+}
+
+void side_list(const bench *b, const side *s)
+{
+    if (!b->verbose)
+        return;
+    fprintf(stderr, "%s: %s %s: frame %.2f ms\n", b->scene_name, s->plugin, s->values,
+            samples_median(&s->frame));
+    for (int i = 0; i < s->pass_count; i++)
+        fprintf(stderr, "    %-24s %9.3f ms\n", s->passes[i].name,
+                samples_median(&s->passes[i].ms));
+}
