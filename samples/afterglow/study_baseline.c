@@ -31,7 +31,7 @@ bool study_setting(const studies_desc *d, const char *text, setting *out)
     }
     if (set_words(text, out, refused, sizeof refused))
         return true;
-    report_note(d->doc, "studies: '%s' is left out: %s does not take %s", text, name, refused);
+    report_note(d->doc, "studies: %s does not take %s: without what asks for it", name, refused);
     setting_finish(out);
     return false;
 }

@@ -224,6 +224,7 @@ static const struct {
     { "list", STAGE_REFINE },
     { "gather", STAGE_LIGHT },
     { "splat", STAGE_LIGHT },
+    { "cells", STAGE_UPSAMPLE },
     { "push", STAGE_UPSAMPLE },
     { "upsample", STAGE_UPSAMPLE },
 };

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""The studies of the report: figures of the papers, measured and drawn again."""
+import json
+import os
+
+from harness import fails, main, succeeds
+
+
+def load(folder):
+    with open(folder + '/report.json') as f:
+        return json.load(f)
+
+
+def words(names):
+    return [word for name in names for word in ('--study', name)]
+
+
+STUDY = ['--gi', 'rsm', '--set', 'rsm_size=16', '--set', 'vpls=16', '--size', '16x16', '--spp', 256]
+
+
+def studies_are_measured_and_drawn(folder):
+    names = ['stages', 'vpls', 'solid_angle']
+    run = succeeds('report', 'cornell', *STUDY, *words(names), '-o', folder)
+    report = load(folder)
+    assert report['records'] == [] and [s['name'] for s in report['studies']] == names
+    stages, count, angle = report['studies']
+    for study in report['studies']:
+        assert study['scene'] == 'cornell' and study['title'] and {p['plugin'] for p in study['points']} == {'rsm'}
+        for point in study['points']:
+            # The first stage is what the others leave of the frame's median.
+            assert sum(s['ms'] for s in point['stages']) >= 0.999 * point['frame_ms']['median'] > 0
+    named = {s['stage']: s['ms'] for s in stages['points'][0]['stages']}
+    assert named['RSM'] > 0 and named['gather, splat'] > 0 and named['other'] == 0, named
+    assert [p['x'] for p in angle['points']] == ['exact', 'equal']
+    assert [p['params']['solid_angle'] for p in angle['points']] == ['exact', 'equal']
+    assert all(p['params']['rsm_size'] == 16 for p in angle['points'])
+    exact, equal = [p['errors'] for p in angle['points']]
+    assert exact[0]['rmse'] == 0 < equal[0]['rmse_max'] < equal[0]['rmse_rms']
+    assert exact[1]['reference'] == 'path1_unshadowed' and exact[1]['rmse'] > 0
+    assert any('stages is without isr, splat' in line for line in run.lines('warning')), run
+    assert any('stages is without isr, splat' in note for note in report['notes'])
+    # Sixteen texels along an edge: 256 VPLs are all there are.
+    errors = [p['errors'][0]['rmse'] for p in count['points'] if p['curve'] == 'regular']
+    assert [p['x'] for p in count['points']][:3] == [16, 64, 256] and errors[0] > errors[1] > errors[2] == 0, errors
+    for name in ['stages_0', 'solid_angle_0', 'solid_angle_1', 'vpls_0', 'vpls_1']:
+        assert os.path.getsize('%s/plots/cornell_study_%s.svg' % (folder, name)) > 1000
+    with open(folder + '/report.html') as f:
+        page = f.read()
+    assert stages['title'] in page and page.count('<svg') == 5
+
+
+def a_path_is_walked_where_something_moves(folder):
+    run = succeeds('report', 'cornell', 'atrium', *STUDY, '--study', 'path', '-o', folder)
+    report = load(folder)
+    assert any('nothing moves in cornell' in line for line in run.lines('warning')), run
+    assert [s['scene'] for s in report['studies']] == ['atrium']
+    # No truth is traced for what is compared with none.
+    assert not any(scene.get('references') for scene in report['scenes'])
+    path = report['studies'][0]['points'][0]['path']
+    assert len(path['ms']) == len(path['seconds']) == 12 and min(path['ms']) > 0
+    assert path['seconds'] == [2 * i for i in range(12)]  # of 24 s
+    assert os.path.getsize(folder + '/plots/atrium_study_path_0.svg') > 1000
+
+
+def studies_of_shards_join(folder):
+    common = ['report', 'cornell', *STUDY, '--study', 'stages', '--study', 'solid_angle']
+    parts = ['%s/%d' % (folder, i) for i in [2, 1]]
+    for i, part in enumerate(parts):
+        succeeds(*common, '--shard', '%d/2' % (2 - i), '-o', part)
+        assert len(load(part)['studies']) == 1
+    succeeds('report', '--merge', *parts, '-o', folder + '/joined')
+    joined = load(folder + '/joined')
+    assert [s['name'] for s in joined['studies']] == ['stages', 'solid_angle']
+    assert any('stages is without isr, splat' in note for note in joined['notes'])
+    assert os.path.exists(folder + '/joined/plots/cornell_study_stages_0.svg')
+    fails(3, ['another folder has'], 'report', '--merge', parts[0], parts[0], '-o', folder + '/twice')
+
+
+if __name__ == '__main__':
+    main([studies_are_measured_and_drawn, a_path_is_walked_where_something_moves, studies_of_shards_join])
