@@ -70,6 +70,15 @@ void store(int level, ivec2 at, block b)
 
 shared block blocks[group * group];
 
+// How far depth z departs from the line between those beside it. Of an image two texels wide nothing
+// tells but their difference; a texel beyond repeats the last.
+float bend(vec2 beside, float z, bvec2 inside, int size)
+{
+    if (size == 2)
+        return abs(beside.y - beside.x);
+    return all(inside) ? abs(beside.x + beside.y - 2.0 * z) : 0.0;
+}
+
 // The depth derivative at a texel with depth z and the depths of its neighbours. `inside`: which of
 // left, right, lower and upper neighbour there are. `unit`: 0: relative to the largest.
 float derivative(float z, vec4 around, bvec4 inside, float unit)
@@ -79,8 +88,7 @@ float derivative(float z, vec4 around, bvec4 inside, float unit)
     float most = max(z, max(around.y, around.w));
 #else
     // Over a plane reversed depth is linear on the screen, in perspective too.
-    vec2 step_ = vec2(inside.x && inside.y ? abs(around.x + around.y - 2.0 * z) : 0.0,
-                      inside.z && inside.w ? abs(around.z + around.w - 2.0 * z) : 0.0);
+    vec2 step_ = vec2(bend(around.xy, z, inside.xy, image.x), bend(around.zw, z, inside.zw, image.y));
     float most = max(z, max(max(around.x, around.y), max(around.z, around.w)));
 #endif
     most = unit > 0.0 ? unit : most;
