@@ -22,7 +22,7 @@ static void write_head(FILE *f, const study *s)
     for (int i = 0; s->baselines[i]; ++i) {
         fputs("<th>RMSE/RMS %</th><th>RMSE/max %</th><th>energy ratio</th>", f);
     }
-    fputs("<th>VPLs</th><th>lit %</th></tr></thead><tbody>\n", f);
+    fputs("<th>VPLs a texel</th><th>lit %</th></tr></thead><tbody>\n", f);
 }
 
 static void write_x(FILE *f, const cJSON *point)
@@ -57,7 +57,8 @@ static void write_row(FILE *f, const study *s, const cJSON *point)
         html_number(f, 100 * study_error(error, true), "%.2f");
         html_number(f, json_number(error, "energy_ratio"), "%.3f");
     }
-    html_number(f, json_number(counters, "vpls"), "%.0f");
+    const double nodes = json_number(counters, "nodes_per_sample"); // of a tree: a cut each
+    html_number(f, isfinite(nodes) ? nodes : json_number(counters, "vpls"), "%.0f");
     html_number(f, 100 * json_number(counters, "samples") / pixels, "%.2f");
     fputs("</tr>\n", f);
 }
@@ -92,9 +93,9 @@ static fg_status write_study(FILE *f, const fg_log *log, const char *folder, con
 {
     const study *s = study_find(json_text(item, "name"));
     fg_status status = FG_OK;
-    fputs("<h3>", f);
+    fputs("<h4>", f);
     html_text(f, s->title);
-    fputs("</h3>\n", f);
+    fputs("</h4>\n", f);
     for (int i = 0; s->panels[i].kind && status == FG_OK; ++i) {
         char stem[160], path[4096], ids[96];
         study_stem(stem, sizeof stem, item, i);
@@ -114,12 +115,19 @@ fg_status study_html(FILE *f, const fg_log *log, const char *folder, const cJSON
                      const char *scene, const char *prefix)
 {
     const cJSON *item;
+    int count = 0;
     fg_status status = FG_OK;
     cJSON_ArrayForEach(item, cJSON_GetObjectItem(doc, "studies"))
     {
         const bool mine = !strcmp(json_text(item, "scene"), scene);
-        if (status == FG_OK && mine && study_find(json_text(item, "name")))
-            status = write_study(f, log, folder, item, prefix);
+        if (status != FG_OK || !mine || !study_find(json_text(item, "name")))
+            continue;
+        if (!count++)
+            fputs("<h3>Studies</h3>\n<p class=\"quiet\">Tables and figures of the papers, drawn "
+                  "again on this scene and device. RMSE is over the RMS of what is compared with; "
+                  "dashed or pale over its maximum, since the papers do not say which.</p>\n",
+                  f);
+        status = write_study(f, log, folder, item, prefix);
     }
     return status;
 }

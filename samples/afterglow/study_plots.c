@@ -47,6 +47,11 @@ static void write_number(FILE *f, double value)
         fputs(" NaN", f);
 }
 
+static const char *ylabel(const study_panel *p)
+{
+    return p->of == PANEL_MS ? "frame, median ms" : "RMSE over RMS of indirect light, %";
+}
+
 // ---- lines -----------------------------------------------------------------------------------
 
 static void write_axis(FILE *f, const study *s, const study_panel *p)
@@ -55,8 +60,7 @@ static void write_axis(FILE *f, const study *s, const study_panel *p)
     plot_text(f, s->x_label ? s->x_label : s->x);
     if (s->x_log)
         fprintf(f, "\nset logscale x");
-    fprintf(f, "\nset yrange [0:*]\nset ylabel '%s'\n",
-            p->of == PANEL_MS ? "frame, median ms" : "RMSE of indirect light, %");
+    fprintf(f, "\nset autoscale xfix\nset yrange [0:*]\nset ylabel '%s'\n", ylabel(p));
 }
 
 // x, then what is drawn: ms, or error over RMS and over maximum.
@@ -206,7 +210,7 @@ static void write_path(FILE *f, const study *s, const cJSON *points)
 {
     int drawn = 0;
     fprintf(f, "set key outside right top\nset xlabel 'time of the animation, s'\n"
-               "set ylabel 'frame, ms'\nset yrange [0:*]\n");
+               "set autoscale xfix\nset ylabel 'frame, ms'\nset yrange [0:*]\n");
     for (int i = 0; s->curves[i].label; ++i)
         write_walk(f, points, s->curves[i].label, i);
     fprintf(f, "plot ");

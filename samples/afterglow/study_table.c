@@ -82,7 +82,8 @@ const study studies[] = {
         .values = { "0.0001", "0.0003", "0.001", "0.003", "0.01", "0.03", "0.1" },
         .baselines = { "isr source=regular rsm_size=1024 vpls=1048576",
                        "rsm rsm_size=1024 pattern=all" },
-        .panels = { { PANEL_LINES, PANEL_MS, "Figure 12." },
+        .panels = { { PANEL_LINES, PANEL_MS,
+                      "Figure 12: a coarse finest level ends the traversal early." },
                     { PANEL_LINES, 0,
                       "Figure 13: of the light hierarchy alone. Compared is the multiresolution "
                       "gather of a million VPLs." },
@@ -208,6 +209,7 @@ static const struct {
     { "build", STAGE_MAP },
     { "pack", STAGE_VPLS },
     { "count_vpls", STAGE_VPLS },
+    { "count_nodes", STAGE_VPLS },
     { "light", STAGE_VPLS },
     { "sum", STAGE_VPLS },
     { "choose", STAGE_VPLS },
