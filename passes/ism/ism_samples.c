@@ -139,14 +139,15 @@ static double distance2(const double p[3][3], const double a[3], const double b[
     return sum;
 }
 
-// Puts the longest edge between corners 0 and 1.
+// Puts the longest edge between corners 0 and 1. Of equally long ones, but for rounding, the first,
+// so that a scene of another size has its samples at the same places.
 static void turn_to_longest(const double p[3][3], double c[3][3], int names[3])
 {
     int longest = 0;
-    double most = -1;
+    double most = 0;
     for (int k = 0; k < 3; k++) {
         const double d = distance2(p, c[k], c[(k + 1) % 3]);
-        if (d > most) {
+        if (d > most * (1 + 1e-9)) {
             most = d;
             longest = k;
         }
@@ -163,13 +164,15 @@ static void turn_to_longest(const double p[3][3], double c[3][3], int names[3])
 
 // The point at `u` in [0, 1) of a curve that fills the triangle from its first corner to its
 // second, equal parts of u over equal areas: halved across the longest edge again and again, each
-// half is entered where the last was left.
-static void curve_point(const double p[3][3], double u, double out[3])
+// half is entered where the last was left, and the point is the middle of the last part. It moves
+// with the square root of u, so `levels` are no more than it takes: rounding of u shall not be
+// seen.
+static void curve_point(const double p[3][3], double u, int levels, double out[3])
 {
-    enum { BEGIN = 1, END = 2, LEVELS = 24 };
+    enum { BEGIN = 1, END = 2 };
     double c[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     int names[3] = { BEGIN, END, 0 };
-    for (int level = 0; level < LEVELS; level++) {
+    for (int level = 0; level < levels; level++) {
         turn_to_longest(p, c, names);
         // The half of corner 0 comes first, unless the curve ends there or begins at the other.
         const bool zero_first = names[0] == BEGIN || names[1] == END;
@@ -217,7 +220,11 @@ static void take_sample(const triangle_list *list, double area, int count, ag_is
     double places[3][3], weights[3];
     corner_indices(p, scene->indices, triangle - list->first[instance], corners);
     corner_places(scene, instance, corners, places);
-    curve_point((const double(*)[3]) places, fmin((area - begin) / own, 1 - 1e-12), weights);
+    const double parts =
+        4 * count * own / list->before[list->count]; // a quarter of a sample's each
+    const int levels = parts > 4 ? ilogb(parts) + 1 : 2;
+    curve_point((const double(*)[3]) places, fmin((area - begin) / own, 1 - 1e-12), levels,
+                weights);
     for (int k = 0; k < 3; k++) {
         out->corners[k] = (int32_t) corners[k];
         out->weights[k] = (float) weights[k];
