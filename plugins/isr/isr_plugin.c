@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: MIT
+#include "cluster.h"
+
 #include <gi/eye_rows.h>
 #include <pass/gather.h>
 #include <pass/readback.h>
 
 #include <stdlib.h>
 
-static const char *const source_names[] = { "regular", NULL };
+enum { SOURCE_CLUSTERS, SOURCE_REGULAR };
+static const char *const source_names[] = { "clusters", "regular", NULL };
 static const char *const clamp_names[] = { "footprint", "disc", "none", "constant", NULL };
 static const char *const solid_angle_names[] = { "exact", "equal", NULL };
+static const double flux_sweep[] = { 1, 0.1, 0.01, 0.001, 0, (double) NAN };
 static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, (double) NAN };
 
 enum {
     RSM_SIZE,
     SOURCE,
+    LIGHT_INITIAL,
+    LIGHT_COARSEST,
+    LIGHT_DEPTH,
+    LIGHT_NORMAL,
+    LIGHT_FLUX,
     VPLS,
     EYE,
     CLAMP = EYE + GI_EYE_ROWS,
@@ -34,7 +43,49 @@ static const gi_param params[] = {
                  .type = GI_ENUM,
                  .unit = "1",
                  .choices = source_names,
-                 .help = "VPLs: a regular pattern (sec. 3.2)" },
+                 .help = "VPLs: patches by discontinuities (sec. 3.4), or a regular pattern (sec. "
+                         "3.2)" },
+    [LIGHT_INITIAL] = { .name = "light_initial",
+                        .type = GI_INT,
+                        .unit = "blocks",
+                        .min = 1,
+                        .max = 1024,
+                        .def = 64,
+                        .power_of_two = true,
+                        .help = "finest patches along a map's edge" },
+    [LIGHT_COARSEST] = { .name = "light_coarsest",
+                         .type = GI_INT,
+                         .unit = "patches",
+                         .min = 1,
+                         .max = 1024,
+                         .def = 8,
+                         .power_of_two = true,
+                         .help = "coarsest along a map's edge, within [light_initial / 8, "
+                                 "light_initial]; its square is split over lights by power" },
+    [LIGHT_DEPTH] = { .name = "light_depth",
+                      .type = GI_FLOAT,
+                      .unit = "1",
+                      .min = 0,
+                      .max = 1e6,
+                      .def = 0.05,
+                      .help = "depth derivative, over the distance, from which on a patch of light "
+                              "is divided" },
+    [LIGHT_NORMAL] = { .name = "light_normal",
+                       .type = GI_FLOAT,
+                       .unit = "1",
+                       .min = 0,
+                       .max = 4,
+                       .def = 0.3,
+                       .help = "extent of a component of the normal from which on it is" },
+    [LIGHT_FLUX] = { .name = "light_flux",
+                     .type = GI_FLOAT,
+                     .unit = "1",
+                     .min = 0,
+                     .max = 1,
+                     .def = 0.01,
+                     .quality = true,
+                     .sweep = flux_sweep,
+                     .help = "share of all flux below which it is not, whatever it holds" },
     [VPLS] = { .name = "vpls",
                .type = GI_INT,
                .unit = "1",
@@ -82,6 +133,7 @@ typedef struct isr {
     gi_value values[PARAM_COUNT];
     ag_rsm_pass map;
     ag_vpl_pass vpl;
+    isr_clusters clusters;
     ag_multires_pass eye;
     ag_gather_pass gather;
     ag_upsample_pass upsample;
@@ -122,6 +174,21 @@ static fg_status isr_create(const gi_env *env, const gi_value *values, void **se
     return isr_set(s, values);
 }
 
+static void declare_clusters(isr *s, fg_graph *g)
+{
+    const gi_value *v = s->values;
+    const int initial = (int) v[LIGHT_INITIAL].i, coarsest = (int) v[LIGHT_COARSEST].i;
+    const isr_clusters_desc clusters = {
+        .prefix = "isr",
+        .initial = initial,
+        .coarsest = coarsest < initial ? coarsest : initial,
+        .depth = (float) v[LIGHT_DEPTH].f,
+        .normal = (float) v[LIGHT_NORMAL].f,
+        .least_flux = (float) v[LIGHT_FLUX].f,
+    };
+    isr_clusters_declare(&s->clusters, &s->vpl, g, &s->map, &clusters);
+}
+
 static void declare_vpls(isr *s, fg_graph *g, const gi_inputs *in)
 {
     const gi_value *v = s->values;
@@ -136,7 +203,10 @@ static void declare_vpls(isr *s, fg_graph *g, const gi_inputs *in)
         .budget = (int) v[VPLS].i,
     };
     ag_rsm_declare(&s->map, g, s->env.gpu_scene, &in->scene, &map);
-    ag_vpl_declare(&s->vpl, g, &s->map, &vpl);
+    if (v[SOURCE].i == SOURCE_CLUSTERS)
+        declare_clusters(s, g);
+    else
+        ag_vpl_declare(&s->vpl, g, &s->map, &vpl);
     ag_readback_declare(&s->vpl_count, g, "isr.count_vpls", s->vpl.count, 4 * sizeof(uint32_t));
 }
 

@@ -190,8 +190,10 @@ static void splatting_and_gathering_make_one_picture(void **state)
 {
     static const int sizes[][2] = { { 1, 1 }, { 64, 64 }, { 65, 63 }, { 130, 67 } };
     static const char *const splat[][3] = { { "vpls=256", NULL }, { "vpls=256", "share=0", NULL } };
-    static const char *const isr[][4] = { { "vpls=256", "clamp=disc", NULL },
-                                          { "vpls=256", "clamp=disc", "share=0", NULL } };
+    static const char *const isr[][5] = {
+        { "source=regular", "vpls=256", "clamp=disc", NULL },
+        { "source=regular", "vpls=256", "clamp=disc", "share=0", NULL },
+    };
     (void) state;
     ag_scene *scenes[] = { furnished_room(), lone_quad(0.6) };
     for (int i = 0; i < FG_COUNT(scenes); i++) {

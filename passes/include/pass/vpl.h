@@ -58,7 +58,7 @@ FG_API int64_t ag_vpl_split(const double *power, int faces, int64_t budget, int 
 
 // Moves the valid VPLs of a list with holes to the front, keeping their order: pass "PREFIX.pack".
 // Reads of `pass`: blocks, ag_vpl[total], area 0: a hole; groups: uint, valid ones of each 256;
-// capacity; and, when it runs, total, at most capacity. Fills in vpls and count.
+// capacity, of vpls: valid ones at most; and, when it runs, total. Fills in vpls and count.
 FG_API void ag_vpl_pack_declare(ag_vpl_pass *pass, fg_graph *g, const char *prefix);
 
 FG_END
