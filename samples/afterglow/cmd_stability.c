@@ -56,7 +56,8 @@ static cJSON *case_json(const stability_case *k, const char *plugin, const char 
 // Runs one case for one plugin and prints its cell. True if it failed.
 static bool run_case(host *h, const stability_case *k, const setting *plugin, cJSON *list)
 {
-    stability s = { .device = h->device, .setting = plugin };
+    const gi_plugin *rsm = host_has_plugin(h, "rsm") ? gi_find(h->registry, "rsm") : NULL;
+    stability s = { .device = h->device, .setting = plugin, .rsm = rsm };
     double measured = (double) NAN;
     char why[640];
     s.log = (fg_log){ .fn = receive, .user = &s, .level = FG_LOG_WARN };
@@ -87,7 +88,7 @@ static void print_notes(const cJSON *list)
 }
 
 static const stability_case *const tables[] = { stability_light_cases, stability_frame_cases,
-                                                NULL };
+                                                stability_hierarchy_cases, NULL };
 
 static const stability_case *find_case(const char *name)
 {

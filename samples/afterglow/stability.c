@@ -91,6 +91,9 @@ static void put_nan(stability *s, const fg_written *w)
 static void inspect(void *user, const fg_written *w)
 {
     stability *s = user;
+    const char *own = setting_name(s->setting);
+    if (s->own_passes && strncmp(w->pass, own, strlen(own)) != 0)
+        return;
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     if (s->poke)
         put_nan(s, w);
@@ -100,7 +103,57 @@ static void inspect(void *user, const fg_written *w)
         check_buffer(s, w);
 }
 
+// ---- settings ---------------------------------------------------------------------------------
+
+static bool has_param(const gi_plugin *p, const char *name, size_t length)
+{
+    for (int i = 0; i < gi_params_count(p); ++i)
+        if (strlen(p->params[i].name) == length && !strncmp(p->params[i].name, name, length))
+            return true;
+    return false;
+}
+
+int stability_find_vpls(const gi_plugin *p)
+{
+    for (int i = 0; p && i < gi_params_count(p); ++i)
+        if (!strcmp(p->params[i].name, "vpls") && p->params[i].type == GI_INT)
+            return i;
+    return -1;
+}
+
+fg_status stability_with(const stability *s, const char *values, setting *out)
+{
+    const gi_plugin *p = s->setting->plugin;
+    char word[64];
+    *out = (setting){ 0 };
+    if (!p)
+        return FG_ERR_UNSUPPORTED;
+    if (!setting_copy(s->setting, out))
+        return FG_ERR_MEMORY;
+    for (const char *at = values; *at;) {
+        const size_t length = strcspn(at, " ");
+        snprintf(word, sizeof word, "%.*s", (int) length, at);
+        if (!has_param(p, word, strcspn(word, "=")) ||
+            gi_params_set(NULL, p, out->values, word) != FG_OK) {
+            setting_finish(out);
+            return FG_ERR_UNSUPPORTED;
+        }
+        at += length + (at[length] == ' ');
+    }
+    return FG_OK;
+}
+
 // ---- frames ----------------------------------------------------------------------------------
+
+static double samples_of(renderer *r)
+{
+    gi_counter counters[16];
+    const int count = renderer_counters(r, counters, FG_COUNT(counters));
+    for (int i = 0; i < count && i < FG_COUNT(counters); ++i)
+        if (!strcmp(counters[i].name, "samples"))
+            return counters[i].value;
+    return (double) NAN;
+}
 
 fg_status stability_render(stability *s, const shot *what, image *out)
 {
@@ -126,6 +179,7 @@ fg_status stability_render(stability *s, const shot *what, image *out)
         status = renderer_frame(r, what->time + i * what->step);
     if (status == FG_OK)
         status = renderer_read(r, what->layer, out);
+    s->samples = status == FG_OK ? samples_of(r) : (double) NAN;
     renderer_destroy(r);
     return status;
 }

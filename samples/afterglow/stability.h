@@ -14,10 +14,13 @@ typedef struct stability {
     char error[512];
     fg_device *device;
     const setting *setting; // the plugin at hand
+    const gi_plugin *rsm;   // what gathers in full, to be held against; NULL: not there
+    bool own_passes;        // check what the plugin's own passes write alone
     int frames;             // of the long case
     long bad;               // values that broke the rule in this case
     char where[128];        // the first of them
     bool poke, poked;       // put a NaN into the G-buffer, and check nothing
+    double samples; // pixels or texels that gathered light, of the last picture; NAN: unknown
 } stability;
 
 // A frame to take. Zeros mean defaults.
@@ -32,11 +35,12 @@ typedef struct shot {
     const gi_value *values; // NULL: the setting's
 } shot;
 
-// Renders with every check on. Errors as the renderer's.
+// Renders with every check on. Errors as the renderer's. Counters come late: `samples` takes some
+// frames.
 FG_NODISCARD fg_status stability_render(stability *s, const shot *what, image *out);
 
 typedef struct stability_case {
-    int row; // of the list of stiff cases, see docs
+    int row; // of the list of stiff cases; 0: of none, a parameter at its end
     const char *name;
     const char *figure; // what is measured
     double bound;       // the figure may be at most this
@@ -49,7 +53,14 @@ typedef struct stability_case {
 } stability_case;
 
 // End at a NULL name: where light and surfaces are odd, and where the frame is.
-extern const stability_case stability_light_cases[], stability_frame_cases[];
+extern const stability_case stability_light_cases[], stability_frame_cases[],
+    stability_hierarchy_cases[];
+
+// The row of `vpls` in the plugin's table; -1: it has none.
+int stability_find_vpls(const gi_plugin *p);
+// The setting at hand with other values, "depth=0 share=0". FG_ERR_UNSUPPORTED: the plugin has no
+// such parameter, or none of that range. The caller finishes `out`.
+FG_NODISCARD fg_status stability_with(const stability *s, const char *values, setting *out);
 
 // ---- figures ---------------------------------------------------------------------------------
 
@@ -80,6 +91,8 @@ typedef struct room {
 FG_NODISCARD fg_status stability_room(const fg_log *log, const room *what, ag_scene **out);
 // `count` x `count` boxes over a floor, of `cells` x `cells` x 2 triangles a side.
 FG_NODISCARD fg_status stability_field(const fg_log *log, int count, int cells, ag_scene **out);
+// One triangle under a lamp, facing the camera.
+FG_NODISCARD fg_status stability_triangle(const fg_log *log, ag_scene **out);
 ag_light stability_lamp(void); // a spot under the ceiling, 60 degrees, 1 W/sr
 
 // A picture of a room, a figure of that picture, and the number of values that broke the rule.

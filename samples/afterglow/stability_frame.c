@@ -149,19 +149,11 @@ static fg_status huge_size(stability *s, double *out)
     return refused(s, lit_room(s, view, stability_most, &unused), out);
 }
 
-static int find_vpls(const gi_plugin *p)
-{
-    for (int i = 0; p && i < gi_params_count(p); ++i)
-        if (!strcmp(p->params[i].name, "vpls") && p->params[i].type == GI_INT)
-            return i;
-    return -1;
-}
-
 // Means of the picture by the number of VPLs, over that of the most.
 static fg_status vpl_counts(stability *s, double *out)
 {
     static const int counts[] = { 65536, 257, 256, 255, 3, 2, 1 };
-    const int row = find_vpls(s->setting->plugin);
+    const int row = stability_find_vpls(s->setting->plugin);
     setting own;
     double most = 0;
     fg_status status = FG_OK;

@@ -160,6 +160,19 @@ static fg_status far_away(stability *s, double *out)
     return against_plain(s, &what, &radiance, out);
 }
 
+// FG_OK with nothing set where the plugin does not count VPLs.
+static fg_status twice_the_vpls(const stability *s, setting *out)
+{
+    const int row = stability_find_vpls(s->setting->plugin);
+    char text[32];
+    *out = (setting){ 0 };
+    if (row < 0)
+        return FG_OK;
+    snprintf(text, sizeof text, "vpls=%lld", 2 * (long long) s->setting->values[row].i);
+    return stability_with(s, text, out);
+}
+
+// Both halves share one budget of VPLs: with twice as many each has those of the whole.
 static fg_status coincident_lights(stability *s, double *out)
 {
     ag_light half[2] = { stability_lamp(), stability_lamp() };
@@ -167,7 +180,14 @@ static fg_status coincident_lights(stability *s, double *out)
         for (int c = 0; c < 3; ++c)
             half[i].intensity[c] = 0.5f;
     const room what = { .lights = half, .light_count = 2, .block = true };
-    return against_plain(s, &what, &radiance, out);
+    shot view = radiance;
+    setting own = { 0 };
+    fg_status status = twice_the_vpls(s, &own);
+    view.values = own.values;
+    if (status == FG_OK)
+        status = against_plain(s, &what, &view, out);
+    setting_finish(&own);
+    return status;
 }
 
 // ---- rows 8 to 14 ----------------------------------------------------------------------------

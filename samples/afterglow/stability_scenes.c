@@ -175,6 +175,37 @@ fg_status stability_room(const fg_log *log, const room *what, ag_scene **out)
     return status;
 }
 
+fg_status stability_triangle(const fg_log *log, ag_scene **out)
+{
+    static const float corners[3][2] = { { -0.3f, -0.3f }, { 0.3f, -0.3f }, { 0, 0.3f } };
+    ag_light lamp = stability_lamp();
+    ag_vertex v[3] = { 0 };
+    lamp.position[1] = 0;
+    lamp.position[2] = 0.45;
+    lamp.direction[1] = 0;
+    lamp.direction[2] = -1;
+    *out = NULL;
+    ag_builder *b = ag_builder_create(log, "triangle");
+    if (!b)
+        return FG_ERR_MEMORY;
+    for (int k = 0; k < 3; ++k) {
+        for (int c = 0; c < 2; ++c)
+            v[k].position[c] = corners[k][c];
+        for (int c = 0; c < 4; ++c)
+            v[k].color[c] = 1;
+    }
+    const ag_primitive_desc primitive = {
+        .name = "triangle", .vertices = v, .vertex_count = 3, .material = -1
+    };
+    ag_builder_show(b, ag_builder_node(b, &(ag_node_desc){ .name = "triangle", .parent = -1 }),
+                    ag_builder_primitive(b, &primitive), -1);
+    ag_builder_light(b, -1, &lamp);
+    add_camera(b, &(room){ 0 }, 1);
+    const fg_status status = ag_scene_build(b, out);
+    ag_builder_destroy(b);
+    return status;
+}
+
 // A sheet of `cells` x `cells` squares over the unit square of the floor, rippled.
 static int add_sheet(ag_builder *b, int cells)
 {
