@@ -49,7 +49,7 @@ static double pose(const bench *b, path *p, int frame)
 {
     if (moves_itself(b))
         return frame / 30.0;
-    p->light.position[0] = p->start + step_of(b) * (frame - FRAMES / 2);
+    p->light.position[0] = p->start + step_of(b) * (frame - 0.5 * (FRAMES - 1));
     p->scene.light_revision++;
     return 0;
 }
