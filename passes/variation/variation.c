@@ -8,22 +8,13 @@
 
 enum { REGION = 64 }; // texels along the edge of what one work group reduces: 2^AG_MAX_LEVELS
 
-static const char *permutation(const ag_variation_pass *pass)
-{
-    static const char *const defines[2][2][2] = {
-        { { "", "RANGE=1" }, { "SLOPE=1", "SLOPE=1;RANGE=1" } },
-        { { "LIGHT=1", "LIGHT=1;RANGE=1" }, { "LIGHT=1;SLOPE=1", "LIGHT=1;SLOPE=1;RANGE=1" } },
-    };
-    return defines[pass->layers > 0][pass->metric == AG_DEPTH_SLOPE][pass->range.id != 0];
-}
-
 static fg_status run_variation(const fg_run *run, void *user)
 {
     const ag_variation_pass *pass = user;
-    const fg_gl_program_desc desc = {
-        .shaders = { &variation_comp },
-        .defines = permutation(pass),
-    };
+    char defines[64];
+    snprintf(defines, sizeof defines, "%s%s%s", pass->layers > 0 ? ";LIGHT=1" : "",
+             pass->metric == AG_DEPTH_SLOPE ? ";SLOPE=1" : "", pass->range.id ? ";RANGE=1" : "");
+    const fg_gl_program_desc desc = { .shaders = { &variation_comp }, .defines = defines };
     const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
     if (!program)
         return FG_ERR_SHADER;

@@ -26,12 +26,14 @@ layout(std430, binding = 0) readonly buffer face_buffer
     ag_gpu_face faces[];
 };
 #define AT(at) ivec3(at, gl_WorkGroupID.z)
+#define GATHER_AT(at) vec3(at, gl_WorkGroupID.z)
 #else
 layout(binding = 0) uniform sampler2D depth_map;
 layout(binding = 1) uniform sampler2D normal_map;
 layout(binding = 0, rgba16f) writeonly uniform image2D change;
 layout(binding = 1, rg32f) writeonly uniform image2D range;
 #define AT(at) at
+#define GATHER_AT(at) at
 #endif
 layout(location = 0) uniform ivec4 image; // xy: size, texels; z: first level; w: last
 layout(location = 1) uniform ivec2 base;  // size of the first level in the pyramid
@@ -62,6 +64,8 @@ void store(int level, ivec2 at, block b)
     if (k < 0 || level > image.w || any(greaterThanEqual(at, base >> k)))
         return;
     ivec2 place = pyramid_origin(base, k) + at;
+    if (any(greaterThanEqual(at << level, image.xy)))
+        b = nothing;
     imageStore(change, AT(place), round_up(vec4(max(b.most - b.least, 0.0), b.depth)));
 #ifdef RANGE
     imageStore(range, AT(place), vec4(b.range, 0.0, 0.0));
@@ -70,60 +74,84 @@ void store(int level, ivec2 at, block b)
 
 shared block blocks[group * group];
 
-// How far depth z departs from the line between those beside it. Of an image two texels wide nothing
-// tells but their difference; a texel beyond repeats the last.
-float bend(vec2 beside, float z, bvec2 inside, int size)
-{
-    if (size == 2)
-        return abs(beside.y - beside.x);
-    return all(inside) ? abs(beside.x + beside.y - 2.0 * z) : 0.0;
-}
-
-// The depth derivative at a texel with depth z and the depths of its neighbours. `inside`: which of
-// left, right, lower and upper neighbour there are. `unit`: 0: relative to the largest.
-float derivative(float z, vec4 around, bvec4 inside, float unit)
+// The square of the depth derivative at a texel with depth z, from the depths of the neighbours left,
+// right, below and above. `inner`: 1 where those along x and y are there. `unit`: 0: relative to the
+// largest.
+float derivative2(float z, vec4 around, vec2 inner, float unit)
 {
 #ifdef SLOPE
-    vec2 step_ = vec2(inside.y ? abs(around.y - z) : 0.0, inside.w ? abs(around.w - z) : 0.0);
+    vec2 change_ = inner * (around.yw - z);
     float most = max(z, max(around.y, around.w));
 #else
     // Over a plane reversed depth is linear on the screen, in perspective too.
-    vec2 step_ = vec2(bend(around.xy, z, inside.xy, image.x), bend(around.zw, z, inside.zw, image.y));
+    vec2 change_ = inner * (around.xz + around.yw - 2.0 * z);
     float most = max(z, max(max(around.x, around.y), max(around.z, around.w)));
 #endif
     most = unit > 0.0 ? unit : most;
-    return most > 0.0 ? length(step_ / most) : 0.0;
+    return most > 0.0 ? dot(change_, change_) / max(most * most, 1e-37) : 0.0;
 }
 
-// The 2 x 2 texels from `at` on.
-block quad(ivec2 at, float unit)
+// Depths of 4 x 4 texels and one more all round; of normals those, and one more to the right and
+// above, where they reach into other blocks.
+float z[6][6];
+vec3 n[5][5];
+
+void fetch(ivec2 at)
 {
-    float z[4][4];
-    vec3 n[3][3];
     ivec2 last = image.xy - 1;
-    for (int y = 0; y < 4; y++)
-        for (int x = 0; x < 4; x++)
-            if (!((x == 0 || x == 3) && (y == 0 || y == 3)))
-                z[y][x] = texelFetch(depth_map, AT(clamp(at + ivec2(x, y) - 1, ivec2(0), last)), 0).x;
+    vec2 texel = 1.0 / vec2(image.xy);
     for (int y = 0; y < 3; y++)
-        for (int x = 0; x < 3; x++)
-            if (x < 2 || y < 2)
+        for (int x = 0; x < 3; x++) {
+            // Gathers the four texels about the corner: (0, 1), (1, 1), (1, 0), (0, 0).
+            vec4 g = textureGather(depth_map, GATHER_AT((vec2(at) + vec2(2 * x, 2 * y)) * texel));
+            z[2 * y + 1][2 * x] = g.x;
+            z[2 * y + 1][2 * x + 1] = g.y;
+            z[2 * y][2 * x + 1] = g.z;
+            z[2 * y][2 * x] = g.w;
+        }
+    for (int y = 0; y < 5; y++)
+        for (int x = 0; x < 5; x++)
+            if (x < 4 || y < 4)
                 n[y][x] = texelFetch(normal_map, AT(min(at + ivec2(x, y), last)), 0).xyz;
+}
+
+// 1 where the neighbours that a depth derivative takes are inside, of four texels from `at` on. Of an
+// image two texels wide nothing tells but their difference; a texel beyond repeats the last.
+vec4 inner_of(int at, int last)
+{
+    ivec4 i = at + ivec4(0, 1, 2, 3);
+    if (last == 1)
+        return vec4(lessThanEqual(i, ivec4(1)));
+#ifdef SLOPE
+    return vec4(lessThan(i, ivec4(last)));
+#else
+    return vec4(lessThan(i, ivec4(last))) * vec4(greaterThan(i, ivec4(0)));
+#endif
+}
+
+// The 2 x 2 texels from (x0, y0) of what was fetched from `at` on. Those beyond the image repeat the
+// normals of its rim.
+block quad(ivec2 at, int x0, int y0, float unit)
+{
+    vec4 inner_x = inner_of(at.x, image.x - 1), inner_y = inner_of(at.y, image.y - 1);
+    vec4 there_x = vec4(lessThan(at.x + ivec4(0, 1, 2, 3), ivec4(image.x)));
+    vec4 there_y = vec4(lessThan(at.y + ivec4(0, 1, 2, 3), ivec4(image.y)));
     block b = nothing;
     for (int i = 0; i < 4; i++) {
-        int x = i & 1, y = i >> 1;
-        ivec2 texel = at + ivec2(x, y);
-        if (any(greaterThan(texel, last)))
-            continue;
+        int x = x0 + (i & 1), y = y0 + (i >> 1);
         float here = z[y + 1][x + 1];
         vec4 around = vec4(z[y + 1][x], z[y + 1][x + 2], z[y][x + 1], z[y + 2][x + 1]);
-        bvec4 inside = bvec4(texel.x > 0, texel.x < last.x, texel.y > 0, texel.y < last.y);
-        b.depth = max(b.depth, derivative(here, around, inside, unit));
+        b.depth = max(b.depth,
+                      derivative2(here, around, vec2(inner_x[x], inner_y[y]) * (there_x[x] * there_y[y]),
+                                       unit));
+#ifdef RANGE
         if (here > 0.0)
             b.range = vec2(min(b.range.x, here), max(b.range.y, here));
+#endif
         b.least = min(b.least, min(n[y][x], min(n[y][x + 1], n[y + 1][x])));
         b.most = max(b.most, max(n[y][x], max(n[y][x + 1], n[y + 1][x])));
     }
+    b.depth = sqrt(b.depth);
     return b;
 }
 
@@ -136,15 +164,17 @@ void main()
     float unit = view.forward.w > 0.5 ? 1.0 : 0.0;
 #endif
     block b = nothing;
+    ivec2 at0 = corner * 4;
+    fetch(at0);
     for (int i = 0; i < 4; i++) {
         ivec2 at = corner * 2 + ivec2(i & 1, i >> 1);
-        block q = quad(at * 2, unit);
+        block q = quad(at0, 2 * (i & 1), 2 * (i >> 1), unit);
         store(1, at, q);
         b = join(b, q);
     }
     store(2, corner, b);
     int index = me.y * group + me.x;
-    for (int level = 3; level <= 6; level++) {
+    for (int level = 3; level <= image.w; level++) {
         int step_ = 1 << (level - 3); // invocations from one block of the level below to the next
         blocks[index] = b;
         barrier();
