@@ -67,7 +67,7 @@ void add(piece s)
         // A pixel that stands for itself alone takes its own value.
         bool begins = weight[i] == 0.0 && (w > 0.0 || (s.own && off.x + off.y < 0.5));
         first[i] = begins ? s.value : first[i];
-        sum[i] += w * (s.value - first[i]);
+        sum[i] += w > 0.0 ? w * (s.value - first[i]) : vec3(0.0); // others' may be NaN
         weight[i] += w;
     }
 }

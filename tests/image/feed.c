@@ -40,8 +40,8 @@ void feed_plane(feed *f, const int pixels[4], const double n[3], double d)
 {
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     const double longer = f->width > f->height ? f->width : f->height;
-    for (int y = pixels[1]; y < pixels[3]; y++) {
-        for (int x = pixels[0]; x < pixels[2]; x++) {
+    for (int y = pixels[1]; y < pixels[3] && y < f->height; y++) {
+        for (int x = pixels[0]; x < pixels[2] && x < f->width; x++) {
             const size_t i = (size_t) y * (size_t) f->width + (size_t) x;
             const double ray[3] = { (x + 0.5 - 0.5 * f->width) / (focal * longer),
                                     (y + 0.5 - 0.5 * f->height) / (focal * longer), -1 };
@@ -56,6 +56,31 @@ void feed_plane(feed *f, const int pixels[4], const double n[3], double d)
             }
             f->normal[i][3] = f->position[i][3] = 1;
         }
+    }
+}
+
+void feed_scene(feed *f, feed_kind kind, uint32_t seed)
+{
+    const int w = f->width, h = f->height;
+    const int x = (int) (feed_random(&seed) * w), y = (int) (feed_random(&seed) * h);
+    if (kind == FEED_ONE_PIXEL)
+        feed_plane(f, (int[4]){ x, y, x + 1, y + 1 }, (double[3]){ 0, 0, 1 }, -1);
+    if (kind == FEED_ONE_PLANE)
+        feed_plane(f, (int[4]){ 0, 0, w, h }, (double[3]){ 0.3, -0.2, 1 }, -2);
+    for (int i = 0; kind == FEED_PLANES && i < 8; i++) {
+        int r[4];
+        for (int k = 0; k < 4; k++)
+            r[k] = (int) (feed_random(&seed) * ((k % 2 ? h : w) + 1));
+        const int rect[4] = { r[0] < r[2] ? r[0] : r[2], r[1] < r[3] ? r[1] : r[3],
+                              r[0] < r[2] ? r[2] : r[0], r[1] < r[3] ? r[3] : r[1] };
+        const double n[3] = { 2 * feed_random(&seed) - 1, 2 * feed_random(&seed) - 1, 1 };
+        feed_plane(f, rect, n, -1 - 3 * feed_random(&seed));
+    }
+    for (int i = 0; kind == FEED_NOISE && i < w * h; i++) {
+        const double n[3] = { 2 * feed_random(&seed) - 1, 2 * feed_random(&seed) - 1, 1 };
+        const double d = -1 - 3 * feed_random(&seed);
+        if (feed_random(&seed) < 0.8)
+            feed_plane(f, (int[4]){ i % w, i / w, i % w + 1, i / w + 1 }, n, d);
     }
 }
 
@@ -122,8 +147,10 @@ void feed_begin(feed *f)
 
 void feed_run(feed *f)
 {
+    const int errors = fg_gl_error_count(device());
     log_clear();
-    if (fg_graph_compile(f->graph) || fg_graph_run(f->graph))
+    if (fg_graph_compile(f->graph) || fg_graph_run(f->graph) ||
+        fg_gl_error_count(device()) != errors)
         fail_msg("graph: %s", log_text());
 }
 

@@ -39,6 +39,18 @@ void feed_finish(feed *f);
 // is there. `n` need not be of unit length.
 void feed_plane(feed *f, const int pixels[4], const double n[3], double d);
 
+// What differs from seed to seed: where the pixel is, the planes, the noise.
+typedef enum feed_kind {
+    FEED_EMPTY = 0,
+    FEED_ONE_PIXEL,
+    FEED_ONE_PLANE, // fills the view
+    FEED_PLANES,    // eight rectangles, each of a plane of its own
+    FEED_NOISE,     // every pixel of a plane of its own; a fifth shows nothing
+    FEED_KINDS,
+} feed_kind;
+
+void feed_scene(feed *f, feed_kind kind, uint32_t seed);
+
 // Uploads, and starts a declaration on f->graph.
 void feed_begin(feed *f);
 // Compiles and runs; the test fails if either does.

@@ -11,40 +11,6 @@
 
 enum { REFINED = 1, MIXED = 2 }; // bits of flags, as passes/multires/texel.glsl has them
 
-typedef enum scene_kind {
-    EMPTY = 0,
-    ONE_PIXEL,
-    ONE_PLANE,
-    PLANES,
-    NOISE,
-    SCENE_KINDS,
-} scene_kind;
-
-static void feed_scene(feed *f, scene_kind kind, uint32_t seed)
-{
-    const int w = f->width, h = f->height;
-    const int x = (int) (feed_random(&seed) * w), y = (int) (feed_random(&seed) * h);
-    if (kind == ONE_PIXEL)
-        feed_plane(f, (int[4]){ x, y, x + 1, y + 1 }, (double[3]){ 0, 0, 1 }, -1);
-    if (kind == ONE_PLANE)
-        feed_plane(f, (int[4]){ 0, 0, w, h }, (double[3]){ 0.3, -0.2, 1 }, -2);
-    for (int i = 0; kind == PLANES && i < 8; i++) {
-        int r[4];
-        for (int k = 0; k < 4; k++)
-            r[k] = (int) (feed_random(&seed) * ((k % 2 ? h : w) + 1));
-        const int rect[4] = { r[0] < r[2] ? r[0] : r[2], r[1] < r[3] ? r[1] : r[3],
-                              r[0] < r[2] ? r[2] : r[0], r[1] < r[3] ? r[3] : r[1] };
-        const double n[3] = { 2 * feed_random(&seed) - 1, 2 * feed_random(&seed) - 1, 1 };
-        feed_plane(f, rect, n, -1 - 3 * feed_random(&seed));
-    }
-    for (int i = 0; kind == NOISE && i < w * h; i++) {
-        const double n[3] = { 2 * feed_random(&seed) - 1, 2 * feed_random(&seed) - 1, 1 };
-        const double d = -1 - 3 * feed_random(&seed);
-        if (feed_random(&seed) < 0.8)
-            feed_plane(f, (int[4]){ i % w, i / w, i % w + 1, i / w + 1 }, n, d);
-    }
-}
-
 // What the passes left, and the sizes they need to be read.
 typedef struct result {
     const feed *f;
@@ -352,10 +318,10 @@ static void each_pixel_is_covered_once_and_what_covers_it_is_listed(void **unuse
     uint32_t seed = 11;
     (void) unused;
     for (int s = 0; s < FG_COUNT(sizes); s++) {
-        for (int kind = 0; kind < SCENE_KINDS; kind++) {
+        for (int kind = 0; kind < FEED_KINDS; kind++) {
             feed f;
             feed_init(&f, sizes[s][0], sizes[s][1], 0);
-            feed_scene(&f, (scene_kind) kind, 3u * (uint32_t) s + (uint32_t) kind);
+            feed_scene(&f, (feed_kind) kind, 3u * (uint32_t) s + (uint32_t) kind);
             // Sharing is defined for surfaces; a block of noise has one for each pixel.
             const int step = sizes[s][0] > 1000 ? 3 : 1;
             for (int share = sizes[s][0] > 1000 ? kind % 2 * 3 : 0; share <= 3; share += step) {
@@ -375,7 +341,7 @@ static void thresholds_of_0_light_every_pixel_and_infinite_ones_only_the_coarses
     for (int share = 0; share <= 3; share++) {
         feed f;
         feed_init(&f, 96, 64, 0);
-        feed_scene(&f, ONE_PLANE, 1);
+        feed_scene(&f, FEED_ONE_PLANE, 1);
         const ag_multires_desc all = {
             .prefix = "test", .width = 96, .height = 64, .coarsest = 12, .share = share
         };
@@ -397,7 +363,7 @@ static void a_surface_in_a_shared_block_takes_one_pixel(void **unused)
     (void) unused;
     feed f;
     feed_init(&f, 64, 64, 0);
-    feed_scene(&f, ONE_PLANE, 1);
+    feed_scene(&f, FEED_ONE_PLANE, 1);
     feed_plane(&f, (int[4]){ 0, 0, 27, 64 }, (double[3]){ 0, 0, 1 }, -1);
     for (int share = 1; share <= 3; share++) {
         const ag_multires_desc desc = { .prefix = "test",
@@ -510,8 +476,8 @@ static void culling_by_stencil_and_by_list_give_the_same_bits(void **unused)
     for (int i = 0; i < FG_COUNT(cases); i++) {
         feed f;
         feed_init(&f, cases[i][0], cases[i][1], 0);
-        feed_scene(&f, ONE_PLANE, 1);
-        feed_scene(&f, PLANES, 100u + (uint32_t) i);
+        feed_scene(&f, FEED_ONE_PLANE, 1);
+        feed_scene(&f, FEED_PLANES, 100u + (uint32_t) i);
         for (int share = 0; share <= 3; share += 3) {
             ag_multires_desc desc = random_desc(cases[i], share, &seed);
             desc.depth = 0.02f;
