@@ -119,12 +119,13 @@ static const gi_param params[] = {
     { .name = NULL },
 };
 
-enum { LEVEL_LAYER, VALIDITY_LAYER };
+enum { LEVEL_LAYER, VALIDITY_LAYER, VPLS_LAYER };
 
 static const gi_layer layers[] = {
     [LEVEL_LAYER] = { "level", "which level lights each pixel, blue the finest; white: lit pixels "
                                "of shared blocks" },
     [VALIDITY_LAYER] = { "validity", "the flattened multiresolution buffer: what is lit" },
+    [VPLS_LAYER] = { "vpls", "VPLs over direct light, as large as their flux" },
     { NULL },
 };
 
@@ -138,6 +139,7 @@ typedef struct isr {
     ag_gather_pass gather;
     ag_upsample_pass upsample;
     ag_multires_debug debug;
+    ag_vpl_dots_pass dots;
     ag_readback vpl_count, texel_count;
 } isr;
 
@@ -227,9 +229,12 @@ static void isr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
     ag_upsample_declare(&s->upsample, g, &s->eye, s->gather.out, "isr");
     ag_readback_declare(&s->texel_count, g, "isr.count_texels", s->eye.count, 4 * sizeof(uint32_t));
     ag_multires_debug_declare(&s->debug, g, &s->eye, "isr");
+    const ag_vpl_dots_desc dots = { "isr", &in->scene, &in->gbuffer, in->direct };
+    ag_vpl_dots_declare(&s->dots, g, s->env.gpu_scene, &s->vpl, &dots);
     out->indirect = s->upsample.out;
     out->layers[LEVEL_LAYER] = s->debug.levels;
     out->layers[VALIDITY_LAYER] = s->debug.validity;
+    out->layers[VPLS_LAYER] = s->dots.out;
 }
 
 static int isr_counters(void *self, gi_counter *out, int max)

@@ -83,6 +83,11 @@ static const gi_param params[] = {
     { .name = NULL },
 };
 
+static const gi_layer layers[] = {
+    { "vpls", "VPLs over direct light, as large as their flux" },
+    { NULL },
+};
+
 typedef struct rsm {
     gi_env env;
     gi_value values[PARAM_COUNT];
@@ -91,6 +96,7 @@ typedef struct rsm {
     ag_ism_samples *points; // NULL until visibility wants them
     ag_ism_pass ism;
     ag_gather_pass gather;
+    ag_vpl_dots_pass dots;
     ag_readback count;
     int samples; // pixels that gather
 } rsm;
@@ -171,7 +177,10 @@ static void rsm_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
     }
     ag_gather_declare(&r->gather, g, &in->scene, &in->gbuffer, &r->vpl, &gather);
     ag_readback_declare(&r->count, g, "rsm.count_vpls", r->vpl.count, 4 * sizeof(uint32_t));
+    const ag_vpl_dots_desc dots = { "rsm", &in->scene, &in->gbuffer, in->direct };
+    ag_vpl_dots_declare(&r->dots, g, r->env.gpu_scene, &r->vpl, &dots);
     out->indirect = r->gather.out;
+    out->layers[0] = r->dots.out;
     r->samples = in->width * in->height;
 }
 
@@ -200,6 +209,7 @@ static const gi_plugin plugin = {
     .summary = "one diffuse bounce, gathered at every pixel from every VPL; indirect visibility by "
                "imperfect shadow maps, off by default",
     .params = params,
+    .layers = layers,
     .needs = AG_FEATURE_LIGHT | AG_FEATURE_GEOMETRY,
     .create = rsm_create,
     .set = rsm_set,

@@ -348,6 +348,66 @@ static void a_light_switched_on_shines(void **state)
     ag_scene_destroy(scene);
 }
 
+// ---- to look at --------------------------------------------------------------------------------
+
+enum { DOTS_EDGE = 64 };
+
+// The rgb of the vpls layer where a VPL is on the screen; NULL: beyond it.
+static const float *at_vpl(const image *img, const ag_view *view, const ag_vpl *v)
+{
+    double clip[4];
+    for (int r = 0; r < 4; r++) {
+        clip[r] = (double) view->view_proj[12 + r];
+        for (int c = 0; c < 3; c++)
+            clip[r] += (double) view->view_proj[4 * c + r] * (double) v->position_area[c];
+    }
+    const double x = (0.5 + 0.5 * clip[0] / clip[3]) * DOTS_EDGE;
+    const double y = (0.5 - 0.5 * clip[1] / clip[3]) * DOTS_EDGE; // from the top down
+    if (clip[3] <= 0 || x < 0 || y < 0 || x >= DOTS_EDGE || y >= DOTS_EDGE)
+        return NULL;
+    return img->rgb + 3 * ((size_t) y * DOTS_EDGE + (size_t) x);
+}
+
+// How many VPLs are in view, each of which must show as a dot or as none; `dots` is 1 or 0.
+static int expect_dots(ag_scene *scene, float dots)
+{
+    const char *const settings[] = { "vpls=64", NULL };
+    capture c[] = { { .resource = "rsm.vpls" }, { .resource = "rsm.count" }, { 0 } };
+    image img =
+        render_captured(scene, DOTS_EDGE, DOTS_EDGE, (renderer_layer) LAYER_PLUGIN, settings, c);
+    const uint32_t count = *(const uint32_t *) c[1].bytes;
+    ag_view view;
+    int seen = 0;
+    assert_int_equal(ag_view_from_camera(test_log(), scene->cameras, DOTS_EDGE, DOTS_EDGE, &view),
+                     FG_OK);
+    for (uint32_t i = 0; i < count; i++) {
+        const float *rgb = at_vpl(&img, &view, (const ag_vpl *) c[0].bytes + i);
+        for (int k = 0; rgb && k < 3; k++)
+            assert_true(rgb[k] == dots);
+        seen += rgb != NULL;
+    }
+    image_finish(&img);
+    captures_finish(c);
+    ag_scene_destroy(scene);
+    return seen;
+}
+
+// White walls, which make white VPLs, and no direct light where a board stands before the camera.
+static void vpls_are_seen_where_nothing_hides_them(void **state)
+{
+    (void) state;
+    static const double p[3] = { -0.4, -0.4, 0.4 }, u[3] = { 0, 0.8, 0 }, v[3] = { 0.8, 0, 0 };
+    const room_desc room = white_room();
+    for (int board = 0; board < 2; board++) {
+        ag_builder *b = room_builder(&room);
+        const ag_light light = ceiling_spot(58);
+        ag_builder_light(b, -1, &light);
+        if (board)
+            add_quad(b, -1, p, u, v);
+        assert_in_range(expect_dots(finish_scene(b), board ? 0 : 1), 20, 64);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -360,6 +420,7 @@ int main(void)
         cmocka_unit_test(a_light_in_two_halves_gives_the_same_picture),
         cmocka_unit_test(dark_lights_take_nothing_from_the_others),
         cmocka_unit_test(a_light_switched_on_shines),
+        cmocka_unit_test(vpls_are_seen_where_nothing_hides_them),
     };
     return cmocka_run_group_tests(tests, device_setup, device_teardown);
 }

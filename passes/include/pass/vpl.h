@@ -61,6 +61,29 @@ FG_API int64_t ag_vpl_split(const double *power, int faces, int64_t budget, int 
 // capacity, of vpls: valid ones at most; and, when it runs, total. Fills in vpls and count.
 FG_API void ag_vpl_pack_declare(ag_vpl_pass *pass, fg_graph *g, const char *prefix);
 
+// VPLs to look at: pass "PREFIX.vpls_layer", left out while nobody reads what it makes.
+//
+// Shapes: out RGBA16F of the frame's size: direct light through the tone curve, and a dot at each
+//         VPL that is not hidden. A dot has its VPL's colour and an area in proportion to its flux,
+//         but a radius of one pixel at least.
+// Units:  display values in [0, 1].
+typedef struct ag_vpl_dots_pass {
+    const ag_gpu_scene *gpu;
+    fg_res view, direct, depth, vpls, count;
+    int capacity;
+    fg_res out;
+} ag_vpl_dots_pass;
+
+typedef struct ag_vpl_dots_desc {
+    const char *prefix;        // e.g. "isr"
+    const ag_scene_res *scene; // read now, as all below
+    const ag_gbuffer *gbuffer;
+    fg_res direct; // RGBA32F, W/(m^2 sr)
+} ag_vpl_dots_desc;
+
+FG_API void ag_vpl_dots_declare(ag_vpl_dots_pass *pass, fg_graph *g, const ag_gpu_scene *gpu,
+                                const ag_vpl_pass *vpls, const ag_vpl_dots_desc *desc);
+
 FG_END
 
 #endif // PASS_VPL_H
