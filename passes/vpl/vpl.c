@@ -31,7 +31,8 @@ static fg_status run_build(const fg_run *run, void *user)
     const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
     if (!program)
         return FG_ERR_SHADER;
-    upload_plan(run, pass, vpl_plan(pass));
+    const int wide = vpl_wide_block(fg_gl_software(fg_run_device(run)));
+    upload_plan(run, pass, vpl_plan(pass, wide));
     fg_gl_sample(run, 0, pass->position, FG_GL_NEAREST);
     fg_gl_sample(run, 1, pass->normal, FG_GL_NEAREST);
     fg_gl_sample(run, 2, pass->flux, FG_GL_NEAREST);
@@ -40,6 +41,7 @@ static fg_status run_build(const fg_run *run, void *user)
     fg_gl_storage(run, 2, pass->faces);
     fg_gl_storage(run, 3, pass->table);
     glProgramUniform1ui(program, 0, pass->seed);
+    glProgramUniform1i(program, 1, wide);
     glUseProgram(program);
     // More groups than fit along one axis fill rows.
     const int groups = pass->rows[0][1], along = groups < MAX_GROUPS ? groups : MAX_GROUPS;

@@ -42,7 +42,8 @@ layout(std430, binding = 3) readonly buffer table_buffer
 };
 layout(location = 0) uniform uint seed;
 
-const int wide_block = 16; // texels along the edge of a block from which on a work group sums it
+layout(location = 1) uniform int wide_block; // texels along the edge of a block from which on a work
+                                             // group sums it
 
 // A block of texels.
 struct block_place {

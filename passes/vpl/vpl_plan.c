@@ -49,7 +49,7 @@ int64_t ag_vpl_split(const double *power, int faces, int64_t budget, int most, i
     }
 }
 
-int vpl_plan(ag_vpl_pass *pass)
+int vpl_plan(ag_vpl_pass *pass, int wide)
 {
     double power[AG_MAX_FACES];
     int grid[AG_MAX_FACES], groups = 0, rows = 0;
@@ -66,7 +66,7 @@ int vpl_plan(ag_vpl_pass *pass)
         const int32_t row[4] = { i, pass->total, groups, edge };
         memcpy(pass->rows[++rows], row, sizeof row);
         const int vpls = edge * edge;
-        groups += pass->size / edge >= VPL_WIDE_BLOCK ? vpls : (vpls + VPL_GROUP - 1) / VPL_GROUP;
+        groups += pass->size / edge >= wide ? vpls : (vpls + VPL_GROUP - 1) / VPL_GROUP;
         pass->total += vpls;
     }
     const int32_t header[4] = { rows, groups, pass->size, pass->pattern == AG_VPL_STRATIFIED };
