@@ -76,5 +76,23 @@ def studies_of_shards_join(folder):
     fails(3, ['another folder has'], 'report', '--merge', parts[0], parts[0], '-o', folder + '/twice')
 
 
+def every_setting_of_every_study_is_taken(folder):
+    names = ['stages', 'eye_depth', 'eye_normal', 'path', 'initial', 'tau', 'vpls', 'solid_angle', 'visibility']
+    run = succeeds('report', 'cornell', '--set', 'rsm_size=64', '--size', '4x4', '--spp', 1, *words(names), '-o', folder)
+    report = load(folder)
+    assert not any('does not take' in note and 'visibility' not in note or 'no plugin' in note for note in report['notes']), report['notes']
+    assert [s['name'] for s in report['studies']] == [name for name in names if name != 'path'], run
+    for study in report['studies']:
+        for point in study['points']:
+            other = [s['ms'] for s in point['stages'] if s['stage'] == 'other']
+            assert other == [0], (study['name'], point['curve'], [p['name'] for p in point['passes']])
+            assert len(point.get('errors', [])) == len(study['baselines'])
+            assert all(e and e['nonfinite'] == 0 for e in point['errors']), point
+    # Thresholds of zero light every pixel, as the full gather does: off by half floats at most, 2^-11.
+    for study in report['studies'][1:3]:
+        assert all(p['errors'][0]['rmse_rms'] < 5e-4 for p in study['points'] if p['x'] == 0), study
+
+
 if __name__ == '__main__':
-    main([studies_are_measured_and_drawn, a_path_is_walked_where_something_moves, studies_of_shards_join])
+    main([studies_are_measured_and_drawn, a_path_is_walked_where_something_moves, studies_of_shards_join,
+          every_setting_of_every_study_is_taken])
