@@ -56,13 +56,12 @@ void main()
     uint base, here;
     scan(earlier, base);
 
-    ag_vpl v = ag_vpl(vec4(0.0), vec4(0.0), vec4(0.0));
+    uint valid = 0;
     if (index < uint(total))
-        v = vpls[index];
-    uint valid = v.position_area.w > 0.0 ? 1 : 0;
+        valid = vpls[index].position_area.w > 0.0 ? 1 : 0;
     uint place = base + scan(valid, here);
     if (valid != 0)
-        packed_vpls[place] = v;
+        packed_vpls[place] = vpls[index];
     if (me == 0 && gl_WorkGroupID.x == gl_NumWorkGroups.x - 1)
         count = uvec4(base + here, uint(total), 0, 0);
 }

@@ -20,7 +20,7 @@ enum {
 };
 
 const isr_clusters_desc isr_clusters_default = {
-    .initial = 64,
+    .initial = 32,
     .coarsest = 8,
     .depth = 0.05f,
     .normal = 0.3f,

@@ -32,7 +32,7 @@ FG_BEGIN
 //         flux decides too; a VPL for each surface of a patch.
 typedef struct isr_clusters_desc {
     const char *prefix;
-    int initial;      // finest blocks along a face's edge, a power of two, [1, 1024], 64; the RSM's
+    int initial;      // finest blocks along a face's edge, a power of two, [1, 1024], 32; the RSM's
                       // texels at most
     int coarsest;     // coarsest patches along an edge, a power of two, [initial / 8, initial], 8
     float depth;      // largest depth derivative that is no discontinuity, >= 0, 0.05

@@ -40,8 +40,7 @@ layout(location = 1) uniform vec3 limits;   // x: depth; y: normal; z: share of 
 const int all_here = region * region;
 const int most_levels = 3;
 
-shared float weights[all_here];
-shared float node_flux[most_levels + 1][all_here]; // of level l: the first all_here >> 2 l
+shared vec2 node_flux[most_levels + 1][all_here]; // of level l: the first all_here >> 2 l
 shared part shared_parts[all_here * most_parts];
 
 float part_flux(part p)
@@ -49,26 +48,14 @@ float part_flux(part p)
     return p.flux_area.r + p.flux_area.g + p.flux_area.b;
 }
 
-float whole_flux()
-{
-    uint me = gl_LocalInvocationIndex;
-    weights[me] = 0.0;
-    for (int i = int(me); i < header.y; i += all_here)
-        weights[me] += sums[i];
-    for (uint half_ = all_here / 2; half_ > 0; half_ /= 2) {
-        barrier();
-        if (me < half_)
-            weights[me] += weights[me + half_];
-    }
-    barrier();
-    return weights[0];
-}
-
-// Flux of the patches of all levels in this region.
-void sum_nodes(float flux)
+// Flux of the patches of all levels in this region. Returns that of all regions.
+float sum_nodes(float flux)
 {
     ivec2 me = ivec2(gl_LocalInvocationID.xy);
-    node_flux[0][me.y * region + me.x] = flux;
+    float others = 0.0;
+    for (int i = me.y * region + me.x; i < header.y; i += all_here)
+        others += sums[i];
+    node_flux[0][me.y * region + me.x] = vec2(flux, others);
     for (int level = 1; level <= most_levels; level++) {
         int across = region >> level;
         barrier();
@@ -80,6 +67,7 @@ void sum_nodes(float flux)
         }
     }
     barrier();
+    return node_flux[most_levels][0].y;
 }
 
 // Whether a patch of 2^level x 2^level texels holds a discontinuity. Beyond the pyramid: perhaps.
@@ -101,32 +89,87 @@ int patch_level(ivec4 row, ivec2 at, float whole, out bool mixed)
     for (int level = header.w; level > 0; level--) {
         ivec2 node = me >> level;
         mixed = is_mixed(at * edge, finest + level, row.x);
-        if (!mixed || node_flux[level][node.y * (region >> level) + node.x] < limits.z * whole)
+        if (!mixed || node_flux[level][node.y * (region >> level) + node.x].x < limits.z * whole)
             return level;
     }
     mixed = true;
     return 0;
 }
 
-// Brings the parts of each patch together in its first block.
-void merge_parts(int level, bool mixed)
+part join(part a, part b)
 {
-    ivec2 me = ivec2(gl_LocalInvocationID.xy);
-    int here = me.y * region + me.x;
+    float weight = a.position_weight.w + b.position_weight.w;
+    float t = weight > 0.0 ? b.position_weight.w / weight : 0.0;
+    return part(a.flux_area + b.flux_area,
+                vec4(mix(a.position_weight.xyz, b.position_weight.xyz, t), weight),
+                mix(a.normal, b.normal, t));
+}
+
+bool are_one(part a, part b)
+{
+    return same_surface(a.position_weight.xyz, a.normal.xyz, b.position_weight.xyz, b.normal.xyz,
+                        a.flux_area.w + b.flux_area.w);
+}
+
+// Adds `b` to the part on its surface. Of one surface too many the faintest adds its energy alone, to
+// that which faces as it does most. `one`: all is one surface.
+void add_part(inout part p[most_parts], part b, bool one)
+{
+    int same = -1, faintest = 0;
+    for (int k = most_parts - 1; k >= 0; k--) {
+        if (one || !(p[k].position_weight.w > 0.0) || are_one(p[k], b))
+            same = k;
+        if (p[k].position_weight.w < p[faintest].position_weight.w)
+            faintest = k;
+    }
+    if (same >= 0) {
+        p[same] = join(p[same], b);
+        return;
+    }
+    if (p[faintest].position_weight.w < b.position_weight.w) {
+        part other = p[faintest];
+        p[faintest] = b;
+        b = other;
+    }
+    vec3 alike = vec3(dot(p[0].normal.xyz, b.normal.xyz), dot(p[1].normal.xyz, b.normal.xyz),
+                      dot(p[2].normal.xyz, b.normal.xyz));
+    int like = alike.x >= max(alike.y, alike.z) ? 0 : alike.y >= alike.z ? 1 : 2;
+    p[like].flux_area += b.flux_area;
+}
+
+// Brings the parts of the four patches at `here` and `step_` blocks on together. A block's parts
+// that are there come first.
+void merge_four(int here, int step_, bool one)
+{
+    part p[most_parts] = part[](no_part, no_part, no_part);
+    bool more = true;
+    for (int k = 0; more && k < most_parts; k++) {
+        more = false;
+        for (int child = 0; child < 4; child++) {
+            int from = here + step_ * ((child & 1) + (child >> 1) * region);
+            part b = shared_parts[from * most_parts + k];
+            if (b.position_weight.w > 0.0) {
+                add_part(p, b, one);
+                more = true;
+            }
+        }
+    }
+    for (int k = 0; k < most_parts; k++)
+        shared_parts[here * most_parts + k] = p[k];
+}
+
+shared int patch_of[all_here]; // level; + 4: mixed
+
+// Brings the parts of each patch together in its first block.
+void merge_parts()
+{
+    int me = int(gl_LocalInvocationIndex);
     for (int l = 1; l <= most_levels; l++) {
         barrier();
-        int step_ = 1 << (l - 1);
-        bool first = l <= level && ((me.x | me.y) & (2 * step_ - 1)) == 0;
-        part p[most_parts];
-    for (int k = 0; k < most_parts; k++)
-        p[k] = no_part;
-        for (int i = 0; first && i < 4 * most_parts; i++) {
-            int child = i / most_parts;
-            int from = here + step_ * ((child & 1) + (child >> 1) * region);
-            add_part(p, shared_parts[from * most_parts + i % most_parts], !mixed);
-        }
-        for (int k = 0; first && k < most_parts; k++)
-            shared_parts[here * most_parts + k] = p[k];
+        int across = region >> l;
+        int here = (me / across * region + me % across) << l;
+        if (me < across * across && (patch_of[here] & 3) >= l)
+            merge_four(here, 1 << (l - 1), patch_of[here] < 4);
     }
     barrier();
 }
@@ -145,21 +188,18 @@ void main()
     ivec2 me = ivec2(gl_LocalInvocationID.xy), at = block_here(row);
     bool inside = all(lessThan(at, ivec2(row.w))), mixed;
     int index = row.y + at.y * row.w + at.x, here = me.y * region + me.x;
-    part p[most_parts];
-    for (int k = 0; k < most_parts; k++)
-        p[k] = no_part;
     float flux = 0.0;
-    for (int k = 0; inside && k < most_parts; k++) {
-        p[k] = parts[index * most_parts + k];
-        flux += part_flux(p[k]);
-        shared_parts[here * most_parts + k] = p[k];
+    for (int k = 0; k < most_parts; k++) {
+        part p = no_part;
+        if (inside)
+            p = parts[index * most_parts + k];
+        flux += part_flux(p);
+        shared_parts[here * most_parts + k] = p;
     }
-    for (int k = 0; !inside && k < most_parts; k++)
-        shared_parts[here * most_parts + k] = no_part;
-    float whole = whole_flux();
-    sum_nodes(flux);
+    float whole = sum_nodes(flux);
     int level = patch_level(row, min(at, row.w - 1), whole, mixed);
-    merge_parts(level, mixed);
+    patch_of[here] = level + (mixed ? 4 : 0);
+    merge_parts();
 
     ivec2 first = (me >> level) << level;
     for (int k = 0; inside && k < most_parts; k++) {

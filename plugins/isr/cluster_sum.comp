@@ -20,7 +20,44 @@ layout(std430, binding = 1) writeonly buffer sum_buffer
     float sums[];
 };
 
+const float least_weight = 1e-37; // W: one over it is still a number
+
 shared float weights[region * region];
+
+// Sums about the first texel of a surface, which says what else is on it.
+struct gathered {
+    vec4 flux_area;
+    vec4 origin_weight; // xyz: the first texel's position; w: r + g + b of flux that is on the surface
+    vec3 first_normal;
+    vec3 position, normal; // weighted, the position from the origin on
+};
+
+void add_texel(inout gathered g, vec4 position, vec3 normal, vec3 flux, float weight)
+{
+    if (!(g.origin_weight.w > 0.0)) {
+        g.origin_weight.xyz = position.xyz;
+        g.first_normal = normal;
+    }
+    g.flux_area += vec4(flux, position.w);
+    g.origin_weight.w += weight;
+    g.position += weight * (position.xyz - g.origin_weight.xyz);
+    g.normal += weight * normal;
+}
+
+// 2 for the surface that a texel is on or a new one, else how alike they face.
+float likeness(gathered g, vec4 position, vec3 normal)
+{
+    bool same = same_surface(g.origin_weight.xyz, g.first_normal, position.xyz, normal, position.w);
+    return !(g.origin_weight.w > 0.0) || same ? 2.0 : dot(g.first_normal, normal);
+}
+
+part finish(gathered g)
+{
+    float to_mean = g.origin_weight.w > 0.0 ? 1.0 / g.origin_weight.w : 0.0;
+    return part(g.flux_area,
+                vec4(g.origin_weight.xyz + g.position * to_mean, g.origin_weight.w),
+                vec4(g.normal * to_mean, 0.0));
+}
 
 void main()
 {
@@ -28,25 +65,36 @@ void main()
     ivec2 at = block_here(row);
     int edge = header.z / row.w;
     bool inside = all(lessThan(at, ivec2(row.w)));
-    part p[most_parts];
-    for (int k = 0; k < most_parts; k++)
-        p[k] = no_part;
+    const gathered none = gathered(vec4(0.0), vec4(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    gathered a = none, b = none, c = none;
     for (int i = 0; inside && i < edge * edge; i++) {
         ivec3 texel = ivec3(at * edge + ivec2(i % edge, i / edge), row.x);
         vec4 position = texelFetch(position_map, texel, 0);
         vec3 flux = texelFetch(flux_map, texel, 0).rgb;
         vec3 normal = texelFetch(normal_map, texel, 0).xyz;
         float weight = position.w > 0.0 ? flux.r + flux.g + flux.b : 0.0;
-        add_part(p, part(vec4(flux, position.w), vec4(position.xyz, weight), vec4(normal, 0.0)),
-                 false);
+        if (!(weight > least_weight))
+            continue;
+        float to_a = likeness(a, position, normal), to_b = likeness(b, position, normal);
+        float to_c = likeness(c, position, normal);
+        float most = max(to_a, max(to_b, to_c));
+        // One surface too many adds its energy alone.
+        float counts = most == 2.0 ? weight : 0.0;
+        if (to_a == most)
+            add_texel(a, position, normal, flux, counts);
+        else if (to_b == most)
+            add_texel(b, position, normal, flux, counts);
+        else
+            add_texel(c, position, normal, flux, counts);
     }
-    for (int k = 0; inside && k < most_parts; k++)
-        parts[(row.y + at.y * row.w + at.x) * most_parts + k] = p[k];
-
     uint me = gl_LocalInvocationIndex;
-    weights[me] = 0.0;
-    for (int k = 0; k < most_parts; k++)
-        weights[me] += p[k].flux_area.r + p[k].flux_area.g + p[k].flux_area.b;
+    weights[me] = dot(a.flux_area.rgb + b.flux_area.rgb + c.flux_area.rgb, vec3(1.0));
+    if (inside) {
+        int first = (row.y + at.y * row.w + at.x) * most_parts;
+        parts[first] = finish(a);
+        parts[first + 1] = finish(b);
+        parts[first + 2] = finish(c);
+    }
     for (uint half_ = 32; half_ > 0; half_ /= 2) {
         barrier();
         if (me < half_)

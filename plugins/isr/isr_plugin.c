@@ -50,7 +50,7 @@ static const gi_param params[] = {
                         .unit = "blocks",
                         .min = 1,
                         .max = 1024,
-                        .def = 64,
+                        .def = 32,
                         .power_of_two = true,
                         .help = "finest patches along a map's edge" },
     [LIGHT_COARSEST] = { .name = "light_coarsest",

@@ -289,7 +289,7 @@ static void the_share_of_flux_says_how_many(void **state)
                                    "light_flux=0.003", "light_flux=0" };
     uint32_t last = 0;
     for (int i = 0; i < FG_COUNT(shares); i++) {
-        const char *const settings[] = { shares[i], NULL };
+        const char *const settings[] = { shares[i], "light_initial=64", NULL };
         const uint32_t count = count_of(scene, settings);
         assert_true(count > last);
         last = count;
@@ -337,7 +337,7 @@ static void mistakes_name_value_and_rule(void **state)
     const gi_plugin *plugin = plugin_named("isr");
     gi_value values[32];
     gi_params_default(plugin, values);
-    assert_int_equal(gi_params_set(test_log(), plugin, values, "light_coarsest=4"), FG_OK);
+    assert_int_equal(gi_params_set(test_log(), plugin, values, "light_coarsest=2"), FG_OK);
     const renderer_desc desc = { .log = test_log(),
                                  .device = device(),
                                  .scene = scene,
@@ -349,7 +349,7 @@ static void mistakes_name_value_and_rule(void **state)
     log_clear();
     assert_int_equal(renderer_create(&desc, &r), FG_OK);
     assert_int_equal(renderer_frame(r, 0), FG_ERR_INVALID);
-    assert_non_null(strstr(log_text(), "isr: coarsest is 4, must be a power of two in [8, 64]"));
+    assert_non_null(strstr(log_text(), "isr: coarsest is 2, must be a power of two in [4, 32]"));
     renderer_destroy(r);
     ag_scene_destroy(scene);
 }
