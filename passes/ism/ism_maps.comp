@@ -54,6 +54,7 @@ layout(binding = 0, r32f) writeonly uniform image2DArray maps;
 
 // The map and its pyramid: bits of reciprocal distances, which order as the numbers do.
 shared uint depths[max_size * max_size * 4 / 3 + 1];
+shared uint widest; // bits of the largest disc's radius
 
 ag_ism_eye make_eye(int map)
 {
@@ -97,16 +98,18 @@ void splat(vec3 p, vec3 n, float radius)
 void splat_all(int map, ag_ism_eye eye)
 {
     int subset = (map + map / layout_.w) % layout_.w;
-    float to_radius = sqrt(overlap / pi * float(layout_.w));
+    float to_radius = sqrt(overlap / pi * float(layout_.w)), most = 0.0;
     for (int i = int(gl_LocalInvocationIndex); i < layout_.z; i += group) {
         vec4 at = points[subset * layout_.z + i].position_area;
         vec3 n = points[subset * layout_.z + i].normal.xyz, d = at.xyz - eye.position.xyz;
         if (at.w <= 0.0)
             continue;
+        most = max(most, to_radius * sqrt(at.w));
         splat(vec3(dot(d, eye.tangent.xyz), dot(d, eye.bitangent.xyz), dot(d, eye.normal.xyz)),
               vec3(dot(n, eye.tangent.xyz), dot(n, eye.bitangent.xyz), dot(n, eye.normal.xyz)),
               to_radius * sqrt(at.w));
     }
+    atomicMax(widest, floatBitsToUint(most));
 }
 
 // Sizes are powers of two; a division is slow where there is none for vectors.
@@ -177,6 +180,8 @@ void main()
     bool used = map < min(int(count.x), layout_.y); // the same for the whole group
     for (int i = me; i < size * size; i += group)
         depths[i] = 0u;
+    if (me == 0)
+        widest = 0u;
     barrier();
     ag_ism_eye eye = ag_ism_eye(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     if (used) {
@@ -186,6 +191,7 @@ void main()
     barrier();
     if (used)
         fill_holes();
+    eye.position.w = uintBitsToFloat(widest);
     if (me == 0)
         eyes[map] = eye;
     for (int i = me; i < size * size; i += group)

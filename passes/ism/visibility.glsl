@@ -20,20 +20,22 @@ int ism_map_of(int j, int count)
 struct ism_map {
     vec3 eye, tangent, bitangent, normal;
     int layer;
-    float size, texel; // of the map's edge in texels; 1 / size
+    float size, texel, disc; // texels along an edge; 1 / size; the largest disc's radius
 };
 
 ism_map ism_open(int layer)
 {
     float size = float(textureSize(ism_maps, 0).x);
     return ism_map(ism_eyes[layer].position.xyz, ism_eyes[layer].tangent.xyz,
-                   ism_eyes[layer].bitangent.xyz, ism_eyes[layer].normal.xyz, layer, size, 1.0 / size);
+                   ism_eyes[layer].bitangent.xyz, ism_eyes[layer].normal.xyz, layer, size, 1.0 / size,
+                   ism_eyes[layer].position.w);
 }
 
 // A texel hides the receiver where something is nearer than the receiver itself and than its plane
-// along the texel's ray, so that no plane hides itself, by more than so many texels' angle. The
-// farthest of the 2x2 texels is 1.41 away: a wall that meets the receiver's at an edge, and turns
-// to the eye by up to 45 degrees, does not hide it there.
+// along the texel's ray, so that no plane hides itself, by more than so many texels' angle and more
+// than a disc's radius. The farthest of the 2x2 texels is 1.41 away: a wall that meets the receiver's
+// at an edge, and turns to the eye by up to 45 degrees, does not hide it there. A disc stands out
+// past an edge, and over a curved surface, by its radius at most.
 const float ism_bias = 1.5;
 // That plane goes through the eye where it is seen from its edge; it counts within this ratio.
 const float ism_plane_range = 2.0;
@@ -58,7 +60,7 @@ float ism_visibility(ism_map m, vec3 position, vec3 normal)
     float height = -dot(n, p); // the receiver sees the eye: not below 0
     plane = clamp(plane * (-1.0 / max(height, 1e-6 * r)), 1.0 / r, ism_plane_range / r);
     float angle = 2.0 * m.texel * (1.0 + p.z / r); // of a texel there
-    vec4 lit = vec4(lessThanEqual(nearest, plane * (1.0 + ism_bias * angle)));
+    vec4 lit = vec4(lessThanEqual(nearest, plane * (1.0 + max(ism_bias * angle, m.disc / r))));
     vec2 row = mix(lit.wx, lit.zy, part.x);
     return mix(row.x, row.y, part.y);
 }

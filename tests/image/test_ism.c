@@ -117,7 +117,7 @@ static sums against_rays(ag_scene *scene, const char *points)
     sums s = { 0 };
     image img = render_captured(scene, N, N, LAYER_INDIRECT, settings, c);
     assert_int_equal(ag_rays_create(&desc, &rays), FG_OK);
-    for (size_t i = 0; i < N * N; i++)
+    for (size_t i = 0; i < (size_t) N * N; i++)
         if (c[3].texels[4 * i + 3] > 0.5f)
             add_pixel(c, rays, i, &s);
     ag_rays_destroy(rays);
@@ -223,7 +223,8 @@ static double left_between(ag_scene *scene, double time, double from, double to)
     double a = 0, b = 0;
     for (int i = 0; i < N * N; i++) {
         // The camera is 1 m up and 1.4 m off the screen; the first row is the upper one.
-        const double row = 1 - 2 * (i / N + 0.5) / N, column = 2 * (i % N + 0.5) / N - 1;
+        const int line = i / N;
+        const double row = 1 - 2 * (line + 0.5) / N, column = 2 * (i % N + 0.5) / N - 1;
         const double y = 1 + 1.4 * tan(0.75) * row;
         if (y < from || y > to || fabs(column) > 0.8)
             continue;
@@ -499,8 +500,8 @@ static void without_vpls_or_surfaces_there_is_exactly_nothing(void **state)
     const ag_camera camera = plain_camera("nowhere");
     ag_builder_light(b, -1, &lit);
     ag_builder_camera(b, -1, &camera);
-    ag_scene *scenes[] = { room_scene(&room, &black), room_scene(&room, NULL), finish_scene(b) };
-    for (int s = 0; s < FG_COUNT(scenes); s++) {
+    ag_scene *scenes[3] = { room_scene(&room, &black), room_scene(&room, NULL), finish_scene(b) };
+    for (int s = 0; s < 3; s++) {
         const char *const settings[] = { "visibility=ism", NULL };
         image img = render_layer(scenes[s], 16, 16, LAYER_RADIANCE, plugin_rsm(), settings);
         for (int i = 0; i < 3 * 16 * 16; i++)
