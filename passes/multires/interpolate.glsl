@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Values of a multiresolution image at texels that hold no edge, and between them.
-#include "passes/multires/bilinear.glsl"
 #include "passes/multires/texel.glsl"
 
 layout(std430, binding = 0) readonly buffer flag_buffer
@@ -45,6 +44,12 @@ vec4 beside(int level, ivec2 at, ivec2 step_, vec4 mine)
     if (is_smooth(level, at - step_))
         return max(2.0 * mine - value_of(level, at - step_), 0.0);
     return mine;
+}
+
+// `f` of the way from `mine` to the others. Equal ones give exactly what they are.
+vec4 bilinear(vec4 mine, vec4 x, vec4 y, vec4 corner, vec2 f)
+{
+    return mine + (x - mine) * f.x + (y - mine) * f.y + (corner - x - y + mine) * (f.x * f.y);
 }
 
 // Texel `at` of `level` from the four nearest on the next coarser level; the one above it is of one

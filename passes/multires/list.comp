@@ -6,7 +6,9 @@
 //      Source: beyond Nichols, Shopf, Wyman 2009, which culls by stencil.
 #include "passes/multires/texel.glsl"
 
-layout(local_size_x = 256) in;
+const uint each = 4; // tiles of an invocation: on a CPU barriers cost by how many meet there
+const uint group = 64;
+layout(local_size_x = group) in;
 
 layout(std430, binding = 0) readonly buffer tile_buffer
 {
@@ -27,7 +29,7 @@ layout(std430, binding = 3) writeonly buffer count_buffer
 layout(location = 0) uniform ivec2 grid;  // tiles
 layout(location = 1) uniform int levels;
 
-shared uint before[256];
+shared uint before[group];
 
 // Sum of `value` over the invocations before this one, and over all.
 uint scan(uint value, out uint all)
@@ -35,23 +37,37 @@ uint scan(uint value, out uint all)
     uint me = gl_LocalInvocationIndex;
     before[me] = value;
     barrier();
-    for (uint step_ = 1; step_ < 256; step_ *= 2) {
+    for (uint step_ = 1; step_ < group; step_ *= 2) {
         uint left = me >= step_ ? before[me - step_] : 0;
         barrier();
         before[me] += left;
         barrier();
     }
-    all = before[255];
+    all = before[group - 1];
     uint exclusive = before[me] - value;
     barrier();
     return exclusive;
 }
 
+uvec4 tile_at(uint index)
+{
+    return index < uint(grid.x * grid.y) ? tiles[index] : uvec4(0u);
+}
+
+// Of the invocation's tiles.
+uint count_here()
+{
+    uint sum = 0u;
+    for (uint i = 0; i < each; i++)
+        sum += tile_at(gl_GlobalInvocationID.x * each + i).w;
+    return sum;
+}
+
 #ifdef SUM
 void main()
 {
-    uint index = gl_GlobalInvocationID.x, all;
-    scan(index < uint(grid.x * grid.y) ? tiles[index].w : 0u, all);
+    uint all;
+    scan(count_here(), all);
     if (gl_LocalInvocationIndex == 0)
         sums[gl_WorkGroupID.x] = all;
 }
@@ -65,7 +81,7 @@ void list_bits(uint bits, int level, int log2_along, ivec2 origin, inout uint pl
     }
 }
 
-void list_tile(ivec2 tile, uvec4 mask, uint place)
+void list_tile(ivec2 tile, uvec4 mask, inout uint place)
 {
     for (int level = levels - 1; level >= 3; level--)
         if ((mask.z >> (17 + level) & 1u) != 0u)
@@ -85,14 +101,17 @@ uvec4 dispatch_of(uint total, uint each)
 
 void main()
 {
-    uint me = gl_LocalInvocationIndex, index = gl_GlobalInvocationID.x, earlier = 0u, base, here;
-    for (uint g = me; g < gl_WorkGroupID.x; g += 256)
+    uint me = gl_LocalInvocationIndex, earlier = 0u, base, here;
+    for (uint g = me; g < gl_WorkGroupID.x; g += group)
         earlier += sums[g];
     scan(earlier, base);
-    uvec4 mask = index < uint(grid.x * grid.y) ? tiles[index] : uvec4(0u);
-    uint place = base + scan(mask.w, here);
-    if (mask.w != 0u)
-        list_tile(ivec2(int(index) % grid.x, int(index) / grid.x), mask, place);
+    uint place = base + scan(count_here(), here);
+    for (uint i = 0; i < each; i++) {
+        uint index = gl_GlobalInvocationID.x * each + i;
+        uvec4 mask = tile_at(index);
+        if (mask.w != 0u)
+            list_tile(ivec2(int(index) % grid.x, int(index) / grid.x), mask, place);
+    }
     if (me == 0u && gl_WorkGroupID.x == gl_NumWorkGroups.x - 1u) {
         uint total = base + here;
         counts[0] = uvec4(total, 0u, 0u, 0u);

@@ -4,6 +4,7 @@
 #include "fullscreen_vert.h"
 #include "list_comp.h"
 #include "refine_comp.h"
+#include "share_comp.h"
 #include "stencil_frag.h"
 #include "valid_comp.h"
 
@@ -62,17 +63,40 @@ static fg_status run_valid(const fg_run *run, void *user)
     const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
     if (!program)
         return FG_ERR_SHADER;
+    const GLuint head[4] = { 0, 1, 1, 0 };
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); // shaders of the last frame wrote there
+    glClearNamedBufferSubData(fg_run_object(run, pass->shared), GL_RGBA32UI, 0, sizeof head,
+                              GL_RGBA_INTEGER, GL_UNSIGNED_INT, head);
     fg_gl_uniform(run, 0, pass->scene.view);
-    fg_gl_sample(run, 0, pass->position, FG_GL_NEAREST);
     fg_gl_sample(run, 1, pass->normal, FG_GL_NEAREST);
     fg_gl_storage(run, 0, pass->flags);
-    fg_gl_storage(run, 1, pass->tiles);
+    fg_gl_storage(run, 1, pass->marked);
+    fg_gl_storage(run, 2, pass->shared);
     glProgramUniform4i(program, 0, pass->pyramid.levels, pass->share, tiles_across(pass),
                        tiles_down(pass));
     glProgramUniform2i(program, 1, pass->pyramid.base[0], pass->pyramid.base[1]);
-    glProgramUniform2f(program, 2, pass->limit_depth, pass->limit_normal);
     glUseProgram(program);
     fg_gl_dispatch_2d(tiles_across(pass), tiles_down(pass), 8, 8);
+    return FG_OK;
+}
+
+static fg_status run_share(const fg_run *run, void *user)
+{
+    const ag_multires_pass *pass = user;
+    const fg_gl_program_desc desc = { .shaders = { &share_comp } };
+    const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
+    if (!program)
+        return FG_ERR_SHADER;
+    fg_gl_uniform(run, 0, pass->scene.view);
+    fg_gl_sample(run, 0, pass->position, FG_GL_NEAREST);
+    fg_gl_sample(run, 1, pass->normal, FG_GL_NEAREST);
+    fg_gl_storage(run, 1, pass->tiles);
+    fg_gl_storage(run, 2, pass->shared);
+    glProgramUniform2i(program, 0, pass->share, tiles_across(pass));
+    glProgramUniform2f(program, 2, pass->limit_depth, pass->limit_normal);
+    glUseProgram(program);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, fg_run_object(run, pass->shared));
+    glDispatchComputeIndirect(0);
     return FG_OK;
 }
 
@@ -151,7 +175,14 @@ static void declare_buffers(ag_multires_pass *pass, fg_graph *g, const char *pre
     const uint64_t tiles = (uint64_t) tiles_across(pass) * (uint64_t) tiles_down(pass);
     const uint64_t flags = (uint64_t) ag_multires_flag_start(pass, pass->pyramid.levels);
     pass->flags = buffer(g, prefix, "flags", flags * sizeof(uint32_t));
-    pass->tiles = buffer(g, prefix, "tiles", tiles * 4 * sizeof(uint32_t));
+    pass->marked = buffer(g, prefix, "tiles", tiles * 4 * sizeof(uint32_t));
+    pass->tiles = pass->share > 0 ? fg_next(pass->marked) : pass->marked;
+    // One word a block, at least one block, after four of its dispatch.
+    const int *base = pass->pyramid.base;
+    const uint64_t blocks =
+        (uint64_t) (base[0] >> pass->share) * (uint64_t) (base[1] >> pass->share);
+    pass->shared =
+        buffer(g, prefix, "shared", (4 + (pass->share > 0 ? blocks : 1)) * sizeof(uint32_t));
     pass->sums = buffer(g, prefix, "tile_sums", (uint64_t) tile_groups(pass) * sizeof(uint32_t));
     pass->texels = buffer(g, prefix, "texels", (uint64_t) pass->capacity * sizeof(uint32_t));
     pass->count = buffer(g, prefix, "texel_count", 16 * sizeof(uint32_t));
@@ -177,44 +208,63 @@ static void declare_stencil(ag_multires_pass *pass, fg_graph *g, const char *pre
     fg_passes(g, &mark, 1);
 }
 
-static void declare_passes(ag_multires_pass *pass, fg_graph *g, const char *prefix)
+static void declare_valid(ag_multires_pass *pass, fg_graph *g, const char *prefix)
 {
-    char refine[64], valid[64], list[64];
-    snprintf(refine, sizeof refine, "%s.refine", prefix);
+    char valid[64], share[64];
     snprintf(valid, sizeof valid, "%s.valid", prefix);
-    snprintf(list, sizeof list, "%s.list", prefix);
+    snprintf(share, sizeof share, "%s.share", prefix);
     const fg_pass_desc passes[] = {
-        {
-            .name = refine,
-            .kind = FG_KIND_COMPUTE,
-            .reads = { { pass->variation.change } },
-            .writes = { { pass->flags, FG_USE_STORAGE, FG_LOAD_DISCARD } },
-            .run = run_refine,
-            .user = pass,
-        },
         {
             .name = valid,
             .kind = FG_KIND_COMPUTE,
-            .reads = { { pass->scene.view, FG_USE_UNIFORM },
-                       { pass->flags },
-                       { pass->position },
-                       { pass->normal } },
-            .writes = { { pass->tiles, FG_USE_STORAGE, FG_LOAD_DISCARD } },
+            .reads = { { pass->scene.view, FG_USE_UNIFORM }, { pass->flags }, { pass->normal } },
+            .writes = { { pass->marked, FG_USE_STORAGE, FG_LOAD_DISCARD },
+                        { pass->shared, FG_USE_STORAGE, FG_LOAD_DISCARD } },
             .run = run_valid,
             .user = pass,
         },
         {
-            .name = list,
+            .name = share,
             .kind = FG_KIND_COMPUTE,
-            .reads = { { pass->tiles } },
-            .writes = { { pass->sums, FG_USE_STORAGE, FG_LOAD_DISCARD },
-                        { pass->texels, FG_USE_STORAGE, FG_LOAD_DISCARD },
-                        { pass->count, FG_USE_STORAGE, FG_LOAD_DISCARD } },
-            .run = run_list,
+            .reads = { { pass->scene.view, FG_USE_UNIFORM },
+                       { pass->position },
+                       { pass->normal },
+                       { pass->shared },
+                       { pass->shared, FG_USE_INDIRECT } },
+            .writes = { { pass->tiles, FG_USE_STORAGE } },
+            .run = run_share,
             .user = pass,
         },
     };
-    fg_passes(g, passes, FG_COUNT(passes));
+    fg_passes(g, passes, pass->share > 0 ? 2 : 1);
+}
+
+static void declare_passes(ag_multires_pass *pass, fg_graph *g, const char *prefix)
+{
+    char refine[64], list[64];
+    snprintf(refine, sizeof refine, "%s.refine", prefix);
+    snprintf(list, sizeof list, "%s.list", prefix);
+    const fg_pass_desc mark = {
+        .name = refine,
+        .kind = FG_KIND_COMPUTE,
+        .reads = { { pass->variation.change } },
+        .writes = { { pass->flags, FG_USE_STORAGE, FG_LOAD_DISCARD } },
+        .run = run_refine,
+        .user = pass,
+    };
+    fg_passes(g, &mark, 1);
+    declare_valid(pass, g, prefix);
+    const fg_pass_desc gather = {
+        .name = list,
+        .kind = FG_KIND_COMPUTE,
+        .reads = { { pass->tiles } },
+        .writes = { { pass->sums, FG_USE_STORAGE, FG_LOAD_DISCARD },
+                    { pass->texels, FG_USE_STORAGE, FG_LOAD_DISCARD },
+                    { pass->count, FG_USE_STORAGE, FG_LOAD_DISCARD } },
+        .run = run_list,
+        .user = pass,
+    };
+    fg_passes(g, &gather, 1);
 }
 
 static bool check(fg_graph *g, const ag_multires_desc *desc)

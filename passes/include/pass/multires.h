@@ -23,8 +23,8 @@ FG_BEGIN
 // With `share` above 0 the levels below are not refined to pixel by pixel: a block of level `share`
 // that holds an edge is covered by its surfaces, and of each one pixel is valid for all.
 //
-// Passes "PREFIX.eye_variation", "PREFIX.refine", "PREFIX.valid", "PREFIX.list" and, with
-// AG_CULL_STENCIL, "PREFIX.stencil".
+// Passes "PREFIX.eye_variation", "PREFIX.refine", "PREFIX.valid", "PREFIX.share" where `share` is
+// above 0, "PREFIX.list" and, with AG_CULL_STENCIL, "PREFIX.stencil".
 //
 // Shapes: flags: uint of each texel of levels 1 .. levels - 1; tiles: uvec4 of each 8 x 8 pixels:
 // what
@@ -57,7 +57,8 @@ typedef struct ag_multires_pass {
     ag_scene_res scene;
     fg_res position, normal; // of the G-buffer
     ag_variation_pass variation;
-    fg_res flags, tiles, texels, count, sums;
+    fg_res flags, shared, sums, texels, count;
+    fg_res marked, tiles; // without what lies in shared blocks, and with it
     fg_res stencil; // AG_CULL_STENCIL
     ag_pyramid pyramid;
     int width, height;
