@@ -2,7 +2,7 @@
 // Image-space radiosity in figures: what it costs against what it replaces, how far off it is, how
 // it flickers. Both sides of a ratio run in turn, warmed up; a ratio is one of medians.
 //
-//     bench_isr [--size N] [--scene NAME] [--verbose] [FIGURE]...
+//     bench_isr [--size N] [--scene NAME] [--least] [--verbose] [FIGURE]...
 //
 // --size: pixels along an edge (1024). --scene: cornell, atrium or sponza (all that are there;
 // Sponza is found below AFTERGLOW_SCENES). --verbose: medians of all passes on stderr. FIGURE: the
@@ -106,7 +106,8 @@ static fg_status run_scene(const bench *b)
 
 static int usage(void)
 {
-    fprintf(stderr, "usage: bench_isr [--size N] [--scene NAME] [--verbose] [FIGURE]...\n");
+    fprintf(stderr,
+            "usage: bench_isr [--size N] [--scene NAME] [--least] [--verbose] [FIGURE]...\n");
     return 2;
 }
 
@@ -117,6 +118,8 @@ static bool parse(bench *b, int argc, char **argv, const char **scene)
         const bool more = i + 1 < argc;
         if (!strcmp(argv[i], "--verbose"))
             b->verbose = true;
+        else if (!strcmp(argv[i], "--least"))
+            samples_take_least();
         else if (!strcmp(argv[i], "--size") && more)
             b->size = atoi(argv[++i]);
         else if (!strcmp(argv[i], "--scene") && more)

@@ -41,7 +41,9 @@ typedef struct samples {
 } samples;
 
 void samples_add(samples *s, double ms); // beyond MAX_FRAMES: the oldest goes
-double samples_median(const samples *s); // NAN without any
+// Their median, or the least once samples_take_least() was called; NAN without any.
+double samples_typical(const samples *s);
+void samples_take_least(void);
 
 // ---- a technique at its settings -------------------------------------------------------------
 
@@ -74,7 +76,7 @@ void side_forget(side *s); // all times so far
 // The indirect layer of the last frame.
 fg_status side_picture(side *s, image *out);
 double side_counter(side *s, const char *name); // NAN where there is none yet
-// Sum of the medians of those passes of the plugin for whose names after "PLUGIN." `wanted` holds.
+// Sum of the times of those passes of the plugin for whose names after "PLUGIN." `wanted` holds.
 double side_sum(const side *s, bool (*wanted)(const char *step));
 void side_list(const bench *b, const side *s); // a table on stderr
 

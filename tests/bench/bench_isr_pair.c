@@ -253,7 +253,7 @@ static void print_all(const bench *b, pairs *p)
 {
     const double ns = 1e6 / ((double) p->texels * (double) p->vpls);
     for (int k = 0; k < CLAMPS; k++) {
-        const double gpu = samples_median(&p->ms[k]), c = samples_median(&p->c_ms[k]);
+        const double gpu = samples_typical(&p->ms[k]), c = samples_typical(&p->c_ms[k]);
         p->loop.footprint = k == FOOTPRINT;
         loop_run(&p->loop, 1, 1);
         const double off = disagreement(p, k);

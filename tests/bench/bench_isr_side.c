@@ -21,19 +21,28 @@ void samples_add(samples *s, double ms)
     s->ms[s->count++ % MAX_FRAMES] = ms;
 }
 
+static bool take_least;
+
+void samples_take_least(void)
+{
+    take_least = true;
+}
+
 static int ascending(const void *a, const void *b)
 {
     const double x = *(const double *) a, y = *(const double *) b;
     return (x > y) - (x < y);
 }
 
-double samples_median(const samples *s)
+double samples_typical(const samples *s)
 {
     double sorted[MAX_FRAMES];
     const int n = s->count < MAX_FRAMES ? s->count : MAX_FRAMES;
     memcpy(sorted, s->ms, sizeof sorted);
     qsort(sorted, (size_t) n, sizeof *sorted, ascending);
-    return n ? 0.5 * (sorted[n / 2] + sorted[(n - 1) / 2]) : (double) NAN;
+    if (!n)
+        return (double) NAN;
+    return take_least ? sorted[0] : 0.5 * (sorted[n / 2] + sorted[(n - 1) / 2]);
 }
 
 // ---- a side ----------------------------------------------------------------------------------
@@ -183,7 +192,7 @@ double side_sum(const side *s, bool (*wanted)(const char *step))
         if (strncmp(p->name, s->plugin, length) != 0 || p->name[length] != '.' ||
             !wanted(p->name + length + 1))
             continue;
-        sum += samples_median(&p->ms);
+        sum += samples_typical(&p->ms);
         found++;
     }
     return found ? sum : (double) NAN;
@@ -194,8 +203,8 @@ void side_list(const bench *b, const side *s)
     if (!b->verbose)
         return;
     fprintf(stderr, "%s: %s %s: frame %.2f ms\n", b->scene_name, s->plugin, s->values,
-            samples_median(&s->frame));
+            samples_typical(&s->frame));
     for (int i = 0; i < s->pass_count; i++)
         fprintf(stderr, "    %-24s %9.3f ms\n", s->passes[i].name,
-                samples_median(&s->passes[i].ms));
+                samples_typical(&s->passes[i].ms));
 }

@@ -12,6 +12,7 @@ static const double patience_ms = 15e3; // after that, LEAST frames have to do
 
 static const char over_gather[] = "isr.splat_over_gather";
 static const char over_frame[] = "isr.splat_over_isr_frame";
+static const char over_passes[] = "isr.splat_over_isr_passes"; // those of the techniques alone
 static const char rsm_over_gather[] = "isr.rsm_over_isr_gather";
 static const char over_texels[] = "isr.rsm_over_isr_gather_a_texel";
 static const char pixels_over_texels[] = "isr.pixels_over_texels";
@@ -19,9 +20,11 @@ static const char fixed[] = "isr.fixed_over_copy";
 static const char fixed_image[] = "isr.fixed_without_vpls_over_copy";
 static const char fixed_default[] = "isr.fixed_over_copy_default";
 static const char lit[] = "isr.lit_percent";
-static const char *const all_figures[] = { over_gather, over_frame,         rsm_over_gather,
-                                           over_texels, pixels_over_texels, fixed,
-                                           fixed_image, fixed_default,      lit,
+static const char *const all_figures[] = { over_gather,   over_frame,
+                                           over_passes,   rsm_over_gather,
+                                           over_texels,   pixels_over_texels,
+                                           fixed,         fixed_image,
+                                           fixed_default, lit,
                                            NULL };
 
 typedef struct times {
@@ -32,7 +35,9 @@ typedef struct times {
 
 static bool step_is_of_image(const char *step)
 {
-    static const char *const of_vpls[] = { "build", "pack", "cluster", "light", "count_vpls" };
+    static const char *const of_vpls[] = {
+        "build", "pack", "light", "sum", "choose", "count_vpls"
+    };
     for (int i = 0; i < FG_COUNT(of_vpls); i++)
         if (!strncmp(step, of_vpls[i], strlen(of_vpls[i])))
             return false;
@@ -44,12 +49,20 @@ static bool step_is_splat(const char *step)
     return !strncmp(step, "splat", 5);
 }
 
+static bool step_is_any(const char *step)
+{
+    (void) step;
+    return true;
+}
+
 static bool is_needed(const bench *b, int k)
 {
     switch (k) {
     case ISR_DEFAULT: return bench_wants(b, fixed_default);
     case RSM: return bench_wants(b, rsm_over_gather) || bench_wants(b, over_texels);
-    case SPLAT: return bench_wants(b, over_gather) || bench_wants(b, over_frame);
+    case SPLAT:
+        return bench_wants(b, over_gather) || bench_wants(b, over_frame) ||
+               bench_wants(b, over_passes);
     default: return true;
     }
 }
@@ -108,7 +121,9 @@ static void print_ratios(const bench *b, times *t)
     if (t->there[SPLAT]) {
         bench_print(b, over_gather, b->size, side_sum(splat, step_is_splat) / gather, "x");
         bench_print(b, over_frame, b->size,
-                    samples_median(&splat->frame) / samples_median(&isr->frame), "x");
+                    samples_typical(&splat->frame) / samples_typical(&isr->frame), "x");
+        bench_print(b, over_passes, b->size,
+                    side_sum(splat, step_is_any) / side_sum(isr, step_is_any), "x");
     }
     if (t->there[RSM]) {
         const double ratio = side_sum(rsm, step_is_gather) / gather;
@@ -121,7 +136,8 @@ static void print_ratios(const bench *b, times *t)
 
 static void print_fixed(const bench *b, const times *t)
 {
-    const double compute = samples_median(&t->copy.ms[0]), raster = samples_median(&t->copy.ms[1]);
+    const double compute = samples_typical(&t->copy.ms[0]),
+                 raster = samples_typical(&t->copy.ms[1]);
     const double unit = fmin(compute, raster);
     if (b->verbose)
         fprintf(stderr, "%s: copy of the screen: %.3f ms by compute, %.3f ms by raster\n",
