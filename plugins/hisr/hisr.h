@@ -6,11 +6,11 @@
 #include <pass/multires.h>
 
 // The VPL tree of all reflective shadow maps, and the gather that takes a cut of it for each texel
-// of the multiresolution buffer: passes "hisr.tree" and "hisr.gather".
+// of the multiresolution buffer: passes "hisr.tree" and "PREFIX.gather".
 //
 // Shapes: nodes: hisr_node[] (hisr_shared.h), all levels; total: hisr_total.
 //         out: RGBA32F, E / pi, at the texels of a multiresolution buffer (pass/multires.h).
-//         visited: uvec2, nodes that all receivers took, low and high word.
+//         visited: uvec4, xy nodes that all receivers took, low and high word; z receivers.
 // Errors: a tree larger than a storage block of the device fails the graph.
 // Source: Nichols, Shopf, Wyman 2009, sec. 3.5.
 
@@ -35,12 +35,14 @@ typedef enum hisr_bound {
 } hisr_bound;
 
 typedef struct hisr_gather_desc {
-    float tau;  // >= 0; 0: all nodes of level `finest`
-    int finest; // level, [0, tree->levels)
-    int block;  // receivers of one invocation: 1, 4 or 16; 0: what suits the device
+    const char *prefix; // of pass and resources
+    float tau;          // >= 0; 0: all nodes of level `finest`
+    int finest;         // level, [0, tree->levels)
+    int block;          // receivers of one invocation: 1, 4 or 16; 0: what suits the device
     ag_clamp clamp;
     float clamp_d2; // m^2, CONSTANT only
     hisr_bound bound;
+    bool cut; // not light but the number of nodes that a texel took, 64 to 16384 from blue to red
 } hisr_gather_desc;
 
 typedef struct hisr_gather {

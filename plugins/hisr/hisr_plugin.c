@@ -85,9 +85,9 @@ typedef struct hisr {
     ag_rsm_pass map;
     hisr_tree tree;
     ag_multires_pass eye;
-    hisr_gather gather;
-    ag_upsample_pass upsample;
-    ag_readback texels, visited;
+    hisr_gather gather, cut;
+    ag_upsample_pass upsample, cut_upsample;
+    ag_readback visited;
 } hisr;
 
 static fg_status hisr_set(void *self, const gi_value *values)
@@ -103,7 +103,6 @@ static void hisr_destroy(void *self)
     hisr *h = self;
     if (!h)
         return;
-    ag_readback_finish(&h->texels);
     ag_readback_finish(&h->visited);
     free(h);
 }
@@ -112,7 +111,7 @@ static fg_status hisr_create(const gi_env *env, const gi_value *values, void **s
 {
     hisr *h = calloc(1, sizeof *h);
     *self = NULL;
-    if (!h || ag_readback_init(&h->texels) != FG_OK || ag_readback_init(&h->visited) != FG_OK) {
+    if (!h || ag_readback_init(&h->visited) != FG_OK) {
         fg_logf(env->log, FG_LOG_ERROR, "hisr: out of memory");
         hisr_destroy(h);
         return FG_ERR_MEMORY;
@@ -144,7 +143,8 @@ static void hisr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_output
     ag_rsm_declare(&h->map, g, h->env.gpu_scene, &in->scene, &map);
     hisr_tree_declare(&h->tree, g, &h->map);
     ag_multires_declare(&h->eye, g, &in->scene, &in->gbuffer, &eye);
-    const hisr_gather_desc gather = {
+    hisr_gather_desc gather = {
+        .prefix = "hisr",
         .tau = (float) v[TAU].f,
         .finest = level_of_edge(&h->tree, (int) v[FINEST].i),
         .clamp = (ag_clamp) v[CLAMP].i,
@@ -153,30 +153,38 @@ static void hisr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_output
     };
     hisr_gather_declare(&h->gather, g, &h->tree, &h->eye, &gather);
     ag_upsample_declare(&h->upsample, g, &h->eye, h->gather.out, "hisr");
-    ag_readback_declare(&h->texels, g, "hisr.count_texels", h->eye.count, 4 * sizeof(uint32_t));
     ag_readback_declare(&h->visited, g, "hisr.count_nodes", h->gather.visited,
-                        2 * sizeof(uint32_t));
+                        4 * sizeof(uint32_t));
     out->indirect = h->upsample.out;
+    gather.prefix = "hisr.cut";
+    gather.cut = true;
+    hisr_gather_declare(&h->cut, g, &h->tree, &h->eye, &gather);
+    ag_upsample_declare(&h->cut_upsample, g, &h->eye, h->cut.out, "hisr.cut");
+    out->layers[0] = h->cut_upsample.out;
 }
 
 static int hisr_counters(void *self, gi_counter *out, int max)
 {
     hisr *h = self;
-    uint32_t texels[4] = { 0 }, visited[2] = { 0 };
-    const bool known =
-        ag_readback_latest(&h->texels, texels) && ag_readback_latest(&h->visited, visited);
-    const double lit = texels[0], nodes = visited[0] + 4294967296.0 * visited[1];
+    uint32_t visited[4] = { 0 };
+    const bool known = ag_readback_latest(&h->visited, visited);
+    const double nodes = visited[0] + 4294967296.0 * visited[1], texels = visited[2];
     const gi_counter counters[] = {
         { "shadow_maps", 0 },
         { "tree_nodes", hisr_tree_nodes(&h->tree, h->tree.levels - 1) },
-        { "samples", lit },
-        { "nodes_per_sample", lit > 0 ? nodes / lit : 0 },
+        { "samples", texels },
+        { "nodes_per_sample", texels > 0 ? nodes / texels : 0 },
     };
     int n = 0;
     for (; n < FG_COUNT(counters) - (known ? 0 : 2) && n < max; n++)
         out[n] = counters[n];
     return n;
 }
+
+static const gi_layer layers[] = {
+    { "cut", "nodes that a texel gathered from: blue 64, green 1024, red 16384" },
+    { NULL },
+};
 
 static const gi_plugin plugin = {
     .abi = GI_PLUGIN_ABI,
@@ -186,6 +194,7 @@ static const gi_plugin plugin = {
     .summary = "one diffuse bounce; each texel of a multiresolution buffer gathers from a cut of "
                "its own through a tree of VPLs; no indirect visibility",
     .params = params,
+    .layers = layers,
     .needs = AG_FEATURE_LIGHT | AG_FEATURE_GEOMETRY,
     .create = hisr_create,
     .set = hisr_set,
