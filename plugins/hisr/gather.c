@@ -43,7 +43,8 @@ static uint32_t gather_program(fg_device *device, const hisr_gather *gather)
     if (desc->cut)
         snprintf(what, sizeof what, "CUT=1");
     else
-        snprintf(what, sizeof what, "CLAMP=%d", clamps[desc->clamp]);
+        snprintf(what, sizeof what, "CLAMP=%d%s", clamps[desc->clamp],
+                 desc->visibility ? ";VISIBILITY=1" : "");
     snprintf(defines, sizeof defines, "BOUND=%d;%s;BLOCK=%d", desc->bound == HISR_BOUND_PAPER, what,
              block_of(device, gather));
     if (by_stencil(gather)) {
@@ -74,8 +75,8 @@ static void bind_gather(const fg_run *run, const hisr_gather *gather)
         fg_gl_storage(run, 3, multires->count);
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, fg_run_object(run, multires->count));
     }
-    fg_gl_storage(run, 4, gather->progress);
-    fg_gl_storage(run, 5, gather->visited);
+    fg_gl_storage(run, 5, gather->progress);
+    fg_gl_storage(run, 6, gather->visited);
     fg_gl_image(run, 0, gather->out, 0, GL_READ_WRITE, FG_RGBA32F);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); // shaders of the last frame wrote there
     glClearNamedBufferData(fg_run_object(run, gather->visited), GL_R32UI, GL_RED_INTEGER,
@@ -96,6 +97,10 @@ static fg_status run_gather(const fg_run *run, void *user)
     glProgramUniform1f(program, 1, desc->tau);
     if (desc->clamp == AG_CLAMP_CONSTANT && !desc->cut)
         glProgramUniform1f(program, 2, desc->clamp_d2);
+    if (desc->visibility) {
+        ag_ism_bind(run, desc->visibility);
+        glProgramUniform2i(program, 4, gather->tree->eye_level, gather->tree->eye_count);
+    }
     glProgramUniform2i(program, 3, pyramid->base[0], pyramid->base[1]);
     glUseProgram(program);
     const int block = block_of(device, gather);
@@ -134,6 +139,7 @@ void hisr_gather_declare(hisr_gather *gather, fg_graph *g, const hisr_tree *tree
     gather->out = fg_texture(g, illumination, &image);
     gather->progress = named_buffer(g, desc->prefix, "progress", receivers * sizeof(uint32_t));
     gather->visited = named_buffer(g, desc->prefix, "visited", 4 * sizeof(uint32_t));
+    const ag_ism_pass unshadowed = { 0 }, *ism = desc->visibility ? desc->visibility : &unshadowed;
     const fg_res none = { 0 }, texels = stencil ? none : multires->texels,
                  count = stencil ? none : multires->count;
     const fg_pass_desc pass = {
@@ -144,6 +150,8 @@ void hisr_gather_declare(hisr_gather *gather, fg_graph *g, const hisr_tree *tree
                    { multires->normal },
                    { tree->nodes },
                    { tree->total },
+                   { ism->maps, .optional = true },
+                   { ism->eyes, .optional = true },
                    { texels, .optional = true },
                    { count, .optional = true },
                    { count, FG_USE_INDIRECT, .optional = true },

@@ -5,6 +5,7 @@
 // the tree and its loads; each adds the nodes of its own cut, so that nothing depends on BLOCK.
 // CLAMP: 0 none, 1 disc, 2 constant, 3 footprint: as in passes/gather/gather.glsl.
 // BOUND: 0 patch, 1 paper. CUT: how many nodes each receiver took instead of their light.
+// VISIBILITY: each node's light is shadowed by the imperfect shadow map of its ancestor at eye_level.
 // FRAGMENT: the receiver is the fragment's texel.
 //
 // Source: Nichols, Shopf, Wyman 2009, sec. 3.5.1.
@@ -25,6 +26,9 @@
 #endif
 
 #include "passes/gather/near.glsl"
+#ifdef VISIBILITY
+#include "passes/ism/visibility.glsl"
+#endif
 
 const float pi = 3.14159265358979;
 
@@ -47,11 +51,11 @@ layout(std430, binding = 1) readonly buffer total_buffer
     hisr_total total;
 };
 // Of each receiver: the next node << 4 | its level (see main()); all bits: done.
-layout(std430, binding = 4) buffer progress_buffer
+layout(std430, binding = 5) buffer progress_buffer
 {
     uint progress[];
 };
-layout(std430, binding = 5) buffer visited_buffer
+layout(std430, binding = 6) buffer visited_buffer
 {
     uvec4 visited; // xy: nodes that receivers took, low and high word; z: receivers
 };
@@ -62,6 +66,16 @@ layout(location = 1) uniform float tau;
 layout(location = 2) uniform float clamp_d2; // m^2
 #endif
 layout(location = 3) uniform ivec2 base; // of the pyramid
+#ifdef VISIBILITY
+layout(location = 4) uniform ivec2 eyes; // x: level that has imperfect shadow maps; y: its nodes
+
+// The map of node i of a level.
+int map_of(int level, int i)
+{
+    int over = 2 * (level - eyes.x);
+    return ism_map_of(over >= 0 ? i >> over : i << -over, eyes.y);
+}
+#endif
 layout(binding = 0, rgba32f) uniform image2D illumination;
 
 const uint done = 0xffffffffu;
@@ -142,7 +156,7 @@ bool needs_refinement(node_extent node, float flux, float area, float d2, float 
 #if CLAMP == 3 && !defined(CUT)
 // Adds a node to the receivers that it is near to. Rare and long, so it stands aside and fetches them
 // anew.
-void add_near(uint mask, int first, int n, float unit)
+void add_near(uint mask, int first, int n, float unit, int map)
 {
     hisr_node node = nodes[n];
     float area = node.vpl.position_area.w * unit * unit;
@@ -153,6 +167,9 @@ void add_near(uint mask, int first, int n, float unit)
         vec3 d = node.vpl.position_area.xyz * unit - p;
         float cos_j = max(-dot(node.vpl.normal.xyz, d), 0.0);
         float share = patch_share(d, normal, node.vpl, area, cos_j);
+#ifdef VISIBILITY
+        share *= ism_visibility(map, p, normal);
+#endif
         vec4 old = imageLoad(illumination, place);
         imageStore(illumination, place, old + vec4(node.vpl.flux.rgb * share, 0.0));
     }
@@ -228,6 +245,10 @@ void main()
             extent.reach *= unit * unit;
             extent.radius *= unit;
             extent.depth *= unit;
+            int map = 0;
+#ifdef VISIBILITY
+            map = map_of(level, i);
+#endif
             for (int r = 0; r < BLOCK; r++) {
                 vec3 d = q - p[r];
                 float d2 = dot(d, d);
@@ -256,12 +277,16 @@ void main()
                 share = is_near ? 0.0 : share;
                 near |= is_near ? 1u << r : 0u;
 #endif
+#ifdef VISIBILITY
+                if (share > 0.0)
+                    share *= ism_visibility(map, p[r], n[r]);
+#endif
                 part[r] += flux * share;
 #endif
                 taken += take ? 1u : 0u;
             }
 #if CLAMP == 3 && !defined(CUT)
-            add_near(near, first, at, unit);
+            add_near(near, first, at, unit, map);
 #endif
         }
         if (refine) {

@@ -22,9 +22,15 @@ typedef struct hisr_tree {
     int roots;  // of all faces
     int levels; // the last one is the map's texels
     int face_count;
+    fg_res eyes, count; // for imperfect shadow maps
+    int eye_level, eye_count;
 } hisr_tree;
 
 void hisr_tree_declare(hisr_tree *tree, fg_graph *g, const ag_rsm_pass *rsm);
+
+// Adds to the tree ag_vpl[eye_count] and their count, uvec4, from where imperfect shadow maps are
+// seen, one for each node of the level `eye_level`: pass "hisr.eyes".
+void hisr_eyes_declare(hisr_tree *tree, fg_graph *g);
 
 // How many nodes the tree has on levels 0 .. level.
 int hisr_tree_nodes(const hisr_tree *tree, int level);
@@ -42,6 +48,7 @@ typedef struct hisr_gather_desc {
     ag_clamp clamp;
     float clamp_d2; // m^2, CONSTANT only
     hisr_bound bound;
+    const ag_ism_pass *visibility; // maps of tree->eyes. NULL: nothing shadows a node
     bool cut; // not light but the number of nodes that a texel took, 64 to 16384 from blue to red
 } hisr_gather_desc;
 

@@ -2,6 +2,7 @@
 #include "hisr.h"
 
 #include <gi/eye_rows.h>
+#include <gi/visibility.h>
 #include <pass/readback.h>
 
 #include <stdlib.h>
@@ -20,6 +21,9 @@ enum {
     CLAMP = EYE + GI_EYE_ROWS,
     CLAMP_D2,
     SOLID_ANGLE,
+    VISIBILITY,
+    ISM_SIZE,
+    ISM_POINTS,
     PARAM_COUNT,
 };
 
@@ -37,7 +41,7 @@ static const gi_param params[] = {
               .unit = "1",
               .min = 0,
               .max = 1e12,
-              .def = 0.001,
+              .def = 0.0003,
               .quality = true,
               .sweep = tau_sweep,
               .help = "what a node may err by, over the mean radiosity of what the lights reach" },
@@ -76,6 +80,7 @@ static const gi_param params[] = {
                       .def = 0,
                       .choices = solid_angle_names,
                       .help = "of a texel: its own, or the paper's equal share (eq. 4)" },
+    GI_VISIBILITY_PARAMS(VISIBILITY, ISM_SIZE, ISM_POINTS),
     { .name = NULL },
 };
 
@@ -88,6 +93,8 @@ typedef struct hisr {
     hisr_gather gather, cut;
     ag_upsample_pass upsample, cut_upsample;
     ag_readback visited;
+    ag_ism_samples *points; // NULL until visibility wants them
+    ag_ism_pass ism;
 } hisr;
 
 static fg_status hisr_set(void *self, const gi_value *values)
@@ -95,7 +102,10 @@ static fg_status hisr_set(void *self, const gi_value *values)
     hisr *h = self;
     for (int i = 0; i < PARAM_COUNT; i++)
         h->values[i] = values[i];
-    return FG_OK;
+    if (values[VISIBILITY].i != GI_VISIBILITY_ISM || h->points)
+        return FG_OK;
+    const ag_ism_samples_desc samples = { .log = h->env.log, .scene = h->env.scene };
+    return ag_ism_samples_create(&samples, &h->points);
 }
 
 static void hisr_destroy(void *self)
@@ -104,6 +114,7 @@ static void hisr_destroy(void *self)
     if (!h)
         return;
     ag_readback_finish(&h->visited);
+    ag_ism_samples_destroy(h->points);
     free(h);
 }
 
@@ -117,8 +128,13 @@ static fg_status hisr_create(const gi_env *env, const gi_value *values, void **s
         return FG_ERR_MEMORY;
     }
     h->env = *env;
+    const fg_status status = hisr_set(h, values);
+    if (status) {
+        hisr_destroy(h);
+        return status;
+    }
     *self = h;
-    return hisr_set(h, values);
+    return FG_OK;
 }
 
 // The level that has `edge` nodes along an edge of a face, or the nearest that there is.
@@ -128,6 +144,20 @@ static int level_of_edge(const hisr_tree *tree, int edge)
     while (level + 1 < tree->levels && 32 << level <= edge)
         level++;
     return level;
+}
+
+static void declare_visibility(hisr *h, fg_graph *g, const gi_inputs *in)
+{
+    hisr_eyes_declare(&h->tree, g);
+    const ag_ism_desc ism = {
+        .prefix = "hisr",
+        .vpls = h->tree.eyes,
+        .count = h->tree.count,
+        .capacity = h->tree.eye_count,
+        .size = (int) h->values[ISM_SIZE].i,
+        .points = (int) h->values[ISM_POINTS].i,
+    };
+    ag_ism_declare(&h->ism, g, h->points, &in->scene, &ism);
 }
 
 static void hisr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
@@ -150,7 +180,10 @@ static void hisr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_output
         .clamp = (ag_clamp) v[CLAMP].i,
         .clamp_d2 = (float) v[CLAMP_D2].f,
         .bound = (hisr_bound) v[BOUND].i,
+        .visibility = v[VISIBILITY].i == GI_VISIBILITY_ISM ? &h->ism : NULL,
     };
+    if (gather.visibility)
+        declare_visibility(h, g, in);
     hisr_gather_declare(&h->gather, g, &h->tree, &h->eye, &gather);
     ag_upsample_declare(&h->upsample, g, &h->eye, h->gather.out, "hisr");
     ag_readback_declare(&h->visited, g, "hisr.count_nodes", h->gather.visited,
@@ -158,6 +191,7 @@ static void hisr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_output
     out->indirect = h->upsample.out;
     gather.prefix = "hisr.cut";
     gather.cut = true;
+    gather.visibility = NULL;
     hisr_gather_declare(&h->cut, g, &h->tree, &h->eye, &gather);
     ag_upsample_declare(&h->cut_upsample, g, &h->eye, h->cut.out, "hisr.cut");
     out->layers[0] = h->cut_upsample.out;
@@ -170,7 +204,7 @@ static int hisr_counters(void *self, gi_counter *out, int max)
     const bool known = ag_readback_latest(&h->visited, visited);
     const double nodes = visited[0] + 4294967296.0 * visited[1], texels = visited[2];
     const gi_counter counters[] = {
-        { "shadow_maps", 0 },
+        { "shadow_maps", h->values[VISIBILITY].i ? h->ism.map_count : 0 },
         { "tree_nodes", hisr_tree_nodes(&h->tree, h->tree.levels - 1) },
         { "samples", texels },
         { "nodes_per_sample", texels > 0 ? nodes / texels : 0 },
@@ -191,8 +225,10 @@ static const gi_plugin plugin = {
     .name = "hisr",
     .source = "Nichols, Shopf, Wyman. Hierarchical Image-Space Radiosity for Interactive Global "
               "Illumination. EGSR 2009",
-    .summary = "one diffuse bounce; each texel of a multiresolution buffer gathers from a cut of "
-               "its own through a tree of VPLs; no indirect visibility",
+    .summary =
+        "one diffuse bounce; each texel of a multiresolution buffer gathers from a cut of "
+        "its own through a tree of VPLs; indirect visibility by imperfect shadow maps, off by "
+        "default",
     .params = params,
     .layers = layers,
     .needs = AG_FEATURE_LIGHT | AG_FEATURE_GEOMETRY,

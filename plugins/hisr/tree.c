@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hisr.h"
 
+#include "hisr_eyes_comp.h"
 #include "hisr_shared.h"
 #include "hisr_total_comp.h"
 #include "hisr_tree_comp.h"
@@ -10,7 +11,7 @@
 
 static_assert(sizeof(hisr_node) == 64, "std430 layout of hisr_node");
 
-enum { GROUP = 64, MAX_GROUPS = 65535 };
+enum { GROUP = 64, MAX_GROUPS = 65535, MAX_EYES = 1024 };
 
 int hisr_tree_nodes(const hisr_tree *tree, int level)
 {
@@ -111,6 +112,44 @@ void hisr_tree_declare(hisr_tree *tree, fg_graph *g, const ag_rsm_pass *rsm)
         .writes = { { tree->nodes, FG_USE_STORAGE, FG_LOAD_DISCARD },
                     { tree->total, FG_USE_STORAGE, FG_LOAD_DISCARD } },
         .run = run_tree,
+        .user = tree,
+    };
+    fg_passes(g, &pass, 1);
+}
+
+static fg_status run_eyes(const fg_run *run, void *user)
+{
+    const hisr_tree *tree = user;
+    const fg_gl_program_desc desc = { .shaders = { &eyes_comp } };
+    const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
+    if (!program)
+        return FG_ERR_SHADER;
+    fg_gl_storage(run, 0, tree->nodes);
+    fg_gl_storage(run, 1, tree->eyes);
+    fg_gl_storage(run, 2, tree->count);
+    glProgramUniform4i(program, 0, tree->roots, tree->eye_level, tree->levels - 1, tree->eye_count);
+    glUseProgram(program);
+    fg_gl_dispatch_2d(tree->eye_count, 1, GROUP, 1);
+    return FG_OK;
+}
+
+void hisr_eyes_declare(hisr_tree *tree, fg_graph *g)
+{
+    tree->eye_level = 0;
+    while (tree->eye_level + 1 < tree->levels &&
+           tree->roots << 2 * (tree->eye_level + 1) <= MAX_EYES)
+        tree->eye_level++;
+    tree->eye_count = tree->roots << 2 * tree->eye_level;
+    const fg_buf_desc eyes = { .size = (uint64_t) tree->eye_count * sizeof(ag_vpl) };
+    tree->eyes = fg_buffer(g, "hisr.eyes", &eyes);
+    tree->count = fg_buffer(g, "hisr.eye_count", &(fg_buf_desc){ .size = 4 * sizeof(uint32_t) });
+    const fg_pass_desc pass = {
+        .name = "hisr.eyes",
+        .kind = FG_KIND_COMPUTE,
+        .reads = { { tree->nodes } },
+        .writes = { { tree->eyes, FG_USE_STORAGE, FG_LOAD_DISCARD },
+                    { tree->count, FG_USE_STORAGE, FG_LOAD_DISCARD } },
+        .run = run_eyes,
         .user = tree,
     };
     fg_passes(g, &pass, 1);
