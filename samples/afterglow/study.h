@@ -78,6 +78,8 @@ FG_NODISCARD fg_status studies_measure(const studies_desc *d);
 // all else of the frame.
 void study_add_stages(cJSON *record);
 extern const char *const study_stages[]; // ends at NULL
+// Of a point: the technique's own stages but for the reflective shadow maps, which all share.
+double study_own_ms(const cJSON *point);
 
 // ---- pictures of errors ----------------------------------------------------------------------
 

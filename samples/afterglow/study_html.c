@@ -18,7 +18,7 @@ static void write_head(FILE *f, const study *s)
     if (s->panels[0].kind == PANEL_STAGES)
         for (int i = 0; study_stages[i]; ++i)
             fprintf(f, "<th>%s</th>", study_stages[i]);
-    fputs("<th>frame</th>", f);
+    fputs("<th>frame</th><th>after the RSM</th>", f);
     for (int i = 0; s->baselines[i]; ++i) {
         fputs("<th>RMSE/RMS %</th><th>RMSE/max %</th><th>energy ratio</th>", f);
     }
@@ -51,6 +51,7 @@ static void write_row(FILE *f, const study *s, const cJSON *point)
             html_number(f, json_number(stage, "ms"), "%.2f");
         }
     html_number(f, json_number(cJSON_GetObjectItem(point, "frame_ms"), "median"), "%.2f");
+    html_number(f, study_own_ms(point), "%.2f");
     for (int i = 0; s->baselines[i]; ++i) {
         const cJSON *error = cJSON_GetArrayItem(errors, i);
         html_number(f, 100 * study_error(error, false), "%.2f");
@@ -125,7 +126,10 @@ fg_status study_html(FILE *f, const fg_log *log, const char *folder, const cJSON
         if (!count++)
             fputs("<h3>Studies</h3>\n<p class=\"quiet\">Tables and figures of the papers, drawn "
                   "again on this scene and device. RMSE is over the RMS of what is compared with; "
-                  "dashed or pale over its maximum, since the papers do not say which.</p>\n",
+                  "dashed or pale over its maximum, since the papers do not say which. Times are "
+                  "of the "
+                  "frame, dashed of the technique's own passes after the reflective shadow "
+                  "maps.</p>\n",
                   f);
         status = write_study(f, log, folder, item, prefix);
     }

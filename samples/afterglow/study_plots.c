@@ -58,12 +58,19 @@ static void write_axis(FILE *f, const study *s, const study_panel *p)
 {
     fprintf(f, "set key outside right top\nset xlabel ");
     plot_text(f, s->x_label ? s->x_label : s->x);
-    if (s->x_log)
-        fprintf(f, "\nset logscale x");
-    fprintf(f, "\nset autoscale xfix\nset yrange [0:*]\nset ylabel '%s'\n", ylabel(p));
+    if (s->x_log) { // a little room: a tic at the very end is lost to rounding
+        int last = 0;
+        fprintf(f, "\nset logscale x\nset xtics (");
+        for (; s->values[last]; ++last)
+            fprintf(f, "%s%s", last ? ", " : "", s->values[last]);
+        fprintf(f, ")\nset xrange [0.93*%s:1.07*%s]", s->values[0], s->values[last - 1]);
+    } else {
+        fprintf(f, "\nset autoscale xfix");
+    }
+    fprintf(f, "\nset yrange [0:*]\nset ylabel '%s'\n", ylabel(p));
 }
 
-// x, then what is drawn: ms, or error over RMS and over maximum.
+// x, then what is drawn: ms of the frame and after the RSM, or error over RMS and over maximum.
 static void write_curve(FILE *f, const cJSON *points, const char *label, const study_panel *p,
                         int number)
 {
@@ -76,6 +83,7 @@ static void write_curve(FILE *f, const cJSON *points, const char *label, const s
         write_number(f, json_number(point, "x"));
         if (p->of == PANEL_MS) {
             write_number(f, frame_ms(point));
+            write_number(f, study_own_ms(point));
         } else {
             write_number(f, error_of(point, p->of, false));
             write_number(f, error_of(point, p->of, true));
@@ -98,11 +106,8 @@ static void write_lines(FILE *f, const study *s, const study_panel *p, const cJS
         fprintf(f, "%s$c%d using 1:2 with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '%s' title ",
                 drawn++ ? ", " : "", i, plot_colour(i));
         plot_text(f, s->curves[i].label);
-        if (p->of != PANEL_MS)
-            fprintf(f,
-                    ", $c%d using 1:3 with linespoints pt 6 ps 0.6 dt 2 lc rgb '%s' title "
-                    "'   over maximum'",
-                    i, plot_colour(i));
+        fprintf(f, ", $c%d using 1:3 with linespoints pt 6 ps 0.6 dt 2 lc rgb '%s' title '   %s'",
+                i, plot_colour(i), p->of == PANEL_MS ? "after the RSM" : "over maximum");
     }
     fputc('\n', f);
 }

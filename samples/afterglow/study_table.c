@@ -272,3 +272,17 @@ void study_add_stages(cJSON *record)
         cJSON_AddItemToArray(stages, stage);
     }
 }
+
+double study_own_ms(const cJSON *point)
+{
+    const cJSON *stages = cJSON_GetObjectItem(point, "stages"), *stage;
+    double sum = 0;
+    cJSON_ArrayForEach(stage, stages)
+    {
+        const char *name = json_text(stage, "stage");
+        if (strcmp(name, study_stages[STAGE_REST]) != 0 &&
+            strcmp(name, study_stages[STAGE_MAP]) != 0)
+            sum += json_number(stage, "ms");
+    }
+    return sum;
+}
