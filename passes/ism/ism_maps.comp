@@ -16,7 +16,7 @@
 #include "passes/include/pass/vpl_shared.h"
 #include "passes/ism/paraboloid.glsl"
 
-const int group = 256;
+const int group = 256, team = 16;
 const int max_size = 64;
 const float pi = 3.14159265358979;
 // A disc has the area that its point stands for, times this: a surface keeps its size, and what the
@@ -25,6 +25,9 @@ const float overlap = 1.0;
 // Discs near the eye are cut to so many texels about their middle: 32768 / 256 points of 17 x 17 stay
 // below the 65535 rounds that Mesa's software renderer gives all loops of an invocation.
 const int reach = 8;
+// Discs of more texels than `narrow` are put aside, as far as there is room.
+const int narrow = 36;
+const uint max_aside = 512u;
 // A plane seen flatter than this (sine) has no width in the map; the eye's own is one.
 const float flattest = 0.01;
 const int levels = 3; // of the pyramid: the widest hole is 8 texels
@@ -55,6 +58,8 @@ layout(binding = 0, r32f) writeonly uniform image2DArray maps;
 // The map and its pyramid: bits of reciprocal distances, which order as the numbers do.
 shared uint depths[max_size * max_size * 4 / 3 + 1];
 shared uint widest; // bits of the largest disc's radius
+shared uint aside_count;
+shared int aside[max_aside];
 
 ag_ism_eye make_eye(int map)
 {
@@ -67,49 +72,70 @@ ag_ism_eye make_eye(int map)
                       vec4(v.normal.xyz, 0.0));
 }
 
-// The disc of a point at `p` with normal `n` and radius `radius`, all as the eye sees it.
-void splat(vec3 p, vec3 n, float radius)
+// A point's disc as the eye sees it, and the texels that it may cover.
+struct disc {
+    vec3 middle, normal;
+    float radius;
+    ivec2 low, extent; // extent 0: there is nothing to see
+};
+
+disc see(int i, ag_ism_eye eye, float to_radius)
 {
-    int size = layout_.x;
-    float r = length(p), height = dot(n, p);
-    if (p.z <= 0.0 || abs(height) < flattest * r)
-        return;
-    vec2 middle = paraboloid_texel(p, r, float(size));
-    float wide = min(0.5 * float(size) * radius / (r + p.z) * (1.0 + radius / r), float(reach));
-    ivec2 at = ivec2(floor(middle)), low = ivec2(floor(middle - wide)),
-          high = ivec2(floor(middle + wide));
-    low = clamp(low, ivec2(0), at);
-    high = clamp(high, at, ivec2(size - 1));
-    at = min(at, size - 1);
-    for (ivec2 texel = low; texel.y <= high.y;
-         texel = texel.x < high.x ? texel + ivec2(1, 0) : ivec2(low.x, texel.y + 1)) {
-        vec3 ray = paraboloid_ray(texel, float(size));
-        float w = dot(n, ray) / height; // 1 / distance of the plane
-        vec3 off = ray - p * w;         // to the disc's middle, times w
-        bool inside = w > 0.0 && dot(off, off) <= radius * radius * w * w;
-        if (!inside)
-            continue;
-        uint bits = floatBitsToUint(min(w, 1e12));
-        if (bits > depths[texel.y * size + texel.x])
-            atomicMax(depths[texel.y * size + texel.x], bits);
-    }
+    vec4 at = points[i].position_area;
+    vec3 n = points[i].normal.xyz, d = at.xyz - eye.position.xyz;
+    vec3 p = vec3(dot(d, eye.tangent.xyz), dot(d, eye.bitangent.xyz), dot(d, eye.normal.xyz));
+    disc s = disc(p, vec3(dot(n, eye.tangent.xyz), dot(n, eye.bitangent.xyz), dot(n, eye.normal.xyz)),
+                  to_radius * sqrt(max(at.w, 0.0)), ivec2(0), ivec2(0));
+    float r = length(p);
+    if (at.w <= 0.0 || p.z <= 0.0 || abs(dot(s.normal, p)) < flattest * r)
+        return s;
+    float size = float(layout_.x);
+    vec2 middle = paraboloid_texel(p, r, size);
+    float wide = min(0.5 * size * s.radius / (r + p.z) * (1.0 + s.radius / r), float(reach));
+    s.low = max(ivec2(floor(middle - wide)), ivec2(0));
+    s.extent = max(min(ivec2(floor(middle + wide)), layout_.x - 1) - s.low + 1, ivec2(0));
+    return s;
 }
 
+void put(disc s, ivec2 texel)
+{
+    vec3 ray = paraboloid_ray(texel, float(layout_.x));
+    float w = dot(s.normal, ray) / dot(s.normal, s.middle); // 1 / distance of the plane
+    vec3 off = ray - s.middle * w;                          // from the disc's middle, times w
+    if (w <= 0.0 || dot(off, off) > s.radius * s.radius * w * w)
+        return;
+    uint bits = floatBitsToUint(min(w, 1e12));
+    if (bits > depths[texel.y * layout_.x + texel.x])
+        atomicMax(depths[texel.y * layout_.x + texel.x], bits);
+}
+
+// Wide discs are few and long, and what runs beside them would wait: they are put aside, and a team of
+// the group does one after the other.
 void splat_all(int map, ag_ism_eye eye)
 {
-    int subset = (map + map / layout_.w) % layout_.w;
+    int me = int(gl_LocalInvocationIndex), first = (map + map / layout_.w) % layout_.w * layout_.z;
     float to_radius = sqrt(overlap / pi * float(layout_.w)), most = 0.0;
-    for (int i = int(gl_LocalInvocationIndex); i < layout_.z; i += group) {
-        vec4 at = points[subset * layout_.z + i].position_area;
-        vec3 n = points[subset * layout_.z + i].normal.xyz, d = at.xyz - eye.position.xyz;
-        if (at.w <= 0.0)
-            continue;
-        most = max(most, to_radius * sqrt(at.w));
-        splat(vec3(dot(d, eye.tangent.xyz), dot(d, eye.bitangent.xyz), dot(d, eye.normal.xyz)),
-              vec3(dot(n, eye.tangent.xyz), dot(n, eye.bitangent.xyz), dot(n, eye.normal.xyz)),
-              to_radius * sqrt(at.w));
+    for (int i = first + me; i < first + layout_.z; i += group) {
+        disc s = see(i, eye, to_radius);
+        most = max(most, s.radius);
+        if (s.extent.x * s.extent.y > narrow) {
+            uint slot = atomicAdd(aside_count, 1u);
+            if (slot < max_aside) {
+                aside[slot] = i;
+                continue;
+            }
+        }
+        for (ivec2 at = ivec2(0); at.y < s.extent.y && s.extent.x > 0;
+             at = at.x + 1 < s.extent.x ? at + ivec2(1, 0) : ivec2(0, at.y + 1))
+            put(s, s.low + at);
     }
     atomicMax(widest, floatBitsToUint(most));
+    barrier();
+    for (uint k = uint(me / team); k < min(aside_count, max_aside); k += group / team) {
+        disc s = see(aside[k], eye, to_radius);
+        for (int i = me % team; i < s.extent.x * s.extent.y; i += team)
+            put(s, s.low + ivec2(i % s.extent.x, i / s.extent.x));
+    }
 }
 
 // Sizes are powers of two; a division is slow where there is none for vectors.
@@ -181,7 +207,7 @@ void main()
     for (int i = me; i < size * size; i += group)
         depths[i] = 0u;
     if (me == 0)
-        widest = 0u;
+        widest = aside_count = 0u;
     barrier();
     ag_ism_eye eye = ag_ism_eye(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     if (used) {
