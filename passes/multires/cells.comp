@@ -18,7 +18,7 @@ layout(std430, binding = 1) writeonly buffer block_buffer
 };
 layout(std430, binding = 2) buffer cell_buffer
 {
-    uvec4 dispatch; // x: work groups of 64 invocations; w: cells
+    uvec4 dispatch; // xy: work groups of 64 invocations; w: cells
     uint cells[];   // y << 16 | x
 };
 layout(location = 0) uniform ivec2 base;  // size of level 0
@@ -39,7 +39,10 @@ void append(ivec2 cell)
 {
     uint place = atomicAdd(dispatch.w, 1u);
     cells[place] = uint(cell.y) << 16 | uint(cell.x);
-    atomicMax(dispatch.x, (place + 1u) * uint(share.z) / 64u + 1u);
+    uint groups = (place + 1u) * uint(share.z) / 64u + 1u; // more than fit one axis fill rows
+    atomicMax(dispatch.x, min(groups, 65535u));
+    if (groups > 65535u)
+        atomicMax(dispatch.y, (groups + 65534u) / 65535u);
 }
 
 void main()

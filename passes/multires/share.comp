@@ -95,9 +95,11 @@ uvec2 share_block(ivec2 origin, ivec2 corner, int edge)
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= dispatch.w)
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint block = group * 64u + gl_LocalInvocationIndex;
+    if (block >= dispatch.w)
         return;
-    uint code = shared_blocks[gl_GlobalInvocationID.x];
+    uint code = shared_blocks[block];
     int edge = 1 << share.x;
     ivec2 low = ivec2(code & 0xffffu, code >> 16) * edge, tile = low >> 3;
     uvec2 chosen = share_block(tile * 8, low & 7, edge);

@@ -128,7 +128,8 @@ void add_all(ivec2 cell)
 
 void main()
 {
-    int index = int(gl_WorkGroupID.x) * 64 + int(gl_LocalInvocationIndex);
+    int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
+    int index = group * 64 + int(gl_LocalInvocationIndex);
     if (index >= int(dispatch.w) * parts * parts)
         return;
     uint code = cells[index / (parts * parts)];

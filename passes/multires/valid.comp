@@ -22,7 +22,7 @@ layout(std430, binding = 1) writeonly buffer tile_buffer
 };
 layout(std430, binding = 2) buffer shared_buffer
 {
-    uvec4 dispatch;       // x: work groups of 64; w: blocks
+    uvec4 dispatch;       // xy: work groups of 64; w: blocks
     uint shared_blocks[]; // y << 16 | x
 };
 layout(location = 0) uniform ivec4 levels; // x: how many; y: share; zw: tiles
@@ -48,7 +48,10 @@ void list_shared(ivec2 block)
 {
     uint place = atomicAdd(dispatch.w, 1u);
     shared_blocks[place] = uint(block.y) << 16 | uint(block.x);
-    atomicMax(dispatch.x, place / 64u + 1u);
+    uint groups = place / 64u + 1u; // more than fit one axis fill rows
+    atomicMax(dispatch.x, min(groups, 65535u));
+    if (groups > 65535u)
+        atomicMax(dispatch.y, (groups + 65534u) / 65535u);
 }
 
 // Adds the texel if it is valid and shows a surface.

@@ -389,6 +389,38 @@ static void what_is_no_number_stays_where_it_is(void **state)
     }
 }
 
+// ---- size --------------------------------------------------------------------------------------
+
+// With thresholds of 0 each of 4 x 1040 x 1024 cells has an edge near: 66560 work groups, more than
+// every device takes along one axis.
+static void more_cells_than_one_axis_takes_fill_rows(void **state)
+{
+    (void) state;
+    feed f;
+    feed_init(&f, 2080, 2048, 0);
+    feed_begin(&f);
+    const ag_multires_desc desc = { .prefix = "test", .width = 2080, .height = 2048, .share = 1 };
+    ag_multires_declare(&eye, f.graph, &f.scene, &f.gbuffer, &desc);
+    const fg_tex_desc tex = { .format = FG_RGBA32F,
+                              .width = eye.pyramid.size[0],
+                              .height = eye.pyramid.size[1] };
+    GLuint texture;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, GL_RGBA32F, tex.width, tex.height);
+    ag_upsample_declare(&upsample, f.graph, &eye,
+                        fg_import_texture(f.graph, "values", &tex, texture), "test");
+    fg_export(f.graph, upsample.out);
+    fg_export(f.graph, upsample.cells);
+    feed_run(&f);
+    uint32_t *head = feed_words(&f, upsample.cells, 4);
+    assert_int_equal(head[3], 4 * 1040 * 1024);
+    assert_true(head[0] <= 65535 && head[1] <= 65535 && head[2] == 1);
+    assert_true(64ull * head[0] * head[1] >= head[3]);
+    free(head);
+    glDeleteTextures(1, &texture);
+    feed_finish(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -396,6 +428,7 @@ int main(void)
         cmocka_unit_test(what_is_linear_stays_so_within_a_surface),
         cmocka_unit_test(no_light_crosses_an_edge),
         cmocka_unit_test(what_is_no_number_stays_where_it_is),
+        cmocka_unit_test(more_cells_than_one_axis_takes_fill_rows),
     };
     return cmocka_run_group_tests(tests, device_setup, device_teardown);
 }
