@@ -9,7 +9,6 @@
 // Source: beyond Nichols, Wyman 2009, who refine such blocks to pixels.
 #include "passes/include/pass/view_shared.h"
 #include "passes/multires/cells.glsl"
-#include "passes/multires/surface.glsl"
 
 #ifndef PART
 #define PART 2
@@ -42,33 +41,44 @@ const int pixels = PART * PART;
 const int parts = edge / 2 / PART;  // along a cell's edge
 const float own_least = 1e-4; // weight of what stands for a pixel in its own block
 
-// What is known of the pixels while pieces of surfaces are added.
+// What is known of the pixels while pieces of surfaces are added: the plane that each lies on, the sum
+// of weight x (value - reference), the weight. Below 0: no piece is of the pixel's surface yet; -1 less
+// the distance to the nearest of its own block.
 ivec2 corner;
-vec3 at_position[pixels], at_normal[pixels], first[pixels], sum[pixels];
-float weight[pixels];
+vec3 plane_normal[pixels], sum[pixels], reference;
+float plane_height[pixels], weight[pixels];
+int nearest[pixels]; // piece, as y << 16 | x in the pyramid
 
-// A piece of surface: seen at `p` with normal `n`, at `place` on the screen, lit by `value`. Those of
-// its own block are always of weight, and a smooth one is its pixels' own surface.
+// A piece of surface: seen at `p` with normal `n`, at `place` on the screen, lit by `value`, which
+// stands at `code`. Those of its own block are always of weight, and a smooth one is its pixels' own
+// surface.
 struct piece {
     vec2 place;
     vec3 p, n, value;
+    int code;
     bool own, smooth_;
 };
 
 void add(piece s)
 {
+    vec3 beyond = s.value - reference;
+    float least = s.own ? own_least : 0.0;
+    float reach2 = limits.x * limits.x * dot(s.p, s.p);
     for (int i = 0; i < pixels; i++) {
         vec2 off = abs(vec2(corner + ivec2(i % PART, i / PART)) + 0.5 - s.place);
         vec2 tent = max(1.0 - off / float(edge), 0.0);
-        float w = max(tent.x * tent.y, s.own ? own_least : 0.0);
+        // surface_is_same(), with the pixel's plane at hand.
+        float above = dot(s.p, plane_normal[i]) - plane_height[i];
+        vec3 bend = plane_normal[i] - s.n;
         bool same = (s.own && s.smooth_) ||
-                    surface_is_same(at_position[i], at_normal[i], s.p, s.n, limits);
-        w = same ? w : 0.0;
-        // A pixel that stands for itself alone takes its own value.
-        bool begins = weight[i] == 0.0 && (w > 0.0 || (s.own && off.x + off.y < 0.5));
-        first[i] = begins ? s.value : first[i];
-        sum[i] += w > 0.0 ? w * (s.value - first[i]) : vec3(0.0); // others' may be NaN
-        weight[i] += w;
+                    (dot(bend, bend) < limits.y * limits.y && above * above < reach2);
+        float w = same ? max(tent.x * tent.y, least) : 0.0;
+        float far = -1.0 - off.x - off.y;
+        bool nearer = s.own && far > weight[i];
+        nearest[i] = nearer ? s.code : nearest[i];
+        float before = w > 0.0 ? max(weight[i], 0.0) : nearer ? far : weight[i];
+        weight[i] = before + w;
+        sum[i] += w * beyond;
     }
 }
 
@@ -97,7 +107,9 @@ piece fetch(ivec2 block, int bit, bool own, bool smooth_)
     s.place = vec2(pixel) + (smooth_ ? 0.0 : 0.5);
     s.p = texelFetch(position_map, pixel, 0).xyz;
     s.n = texelFetch(normal_map, pixel, 0).xyz;
-    s.value = texelFetch(pyramid, smooth_ ? level.zw + block : pixel, 0).rgb;
+    ivec2 at = smooth_ ? level.zw + block : pixel;
+    s.value = texelFetch(pyramid, at, 0).rgb;
+    s.code = at.y << 16 | at.x;
     s.own = own;
     s.smooth_ = smooth_;
     return s;
@@ -108,7 +120,8 @@ void add_all(ivec2 cell)
     ivec2 block = cell >> 1, side = side_of(cell);
     uint word = blocks[block.y * level.x + block.x];
     uvec2 left = uvec2(0u);
-    bool smooth_ = false;
+    bool smooth_ = false, begun = false;
+    reference = vec3(0.0);
     // One piece a round, whichever block it is of: neighbours in a vector unit stay together.
     for (int i = -1; i < 4;) {
         ivec2 step_ = side * ivec2(i & 1, i >> 1);
@@ -116,7 +129,10 @@ void add_all(ivec2 cell)
             int bit = left.x != 0u ? findLSB(left.x) : 32 + findLSB(left.y);
             left = left.x != 0u ? uvec2(left.x & (left.x - 1u), left.y)
                                 : uvec2(0u, left.y & (left.y - 1u));
-            add(fetch(block + step_, bit, i == 0, smooth_));
+            piece s = fetch(block + step_, bit, i == 0, smooth_);
+            reference = begun ? reference : s.value;
+            begun = true;
+            add(s);
         }
         while ((left.x | left.y) == 0u && ++i < 4) {
             step_ = side * ivec2(i & 1, i >> 1);
@@ -139,16 +155,20 @@ void main()
     ivec2 last = view.size.xy - 1;
     for (int i = 0; i < pixels; i++) {
         ivec2 pixel = min(corner + ivec2(i % PART, i / PART), last);
-        at_position[i] = texelFetch(position_map, pixel, 0).xyz;
-        at_normal[i] = texelFetch(normal_map, pixel, 0).xyz;
-        first[i] = sum[i] = vec3(0.0);
-        weight[i] = 0.0;
+        plane_normal[i] = texelFetch(normal_map, pixel, 0).xyz;
+        plane_height[i] = dot(texelFetch(position_map, pixel, 0).xyz, plane_normal[i]);
+        sum[i] = vec3(0.0);
+        weight[i] = -1e9;
+        nearest[i] = -1;
     }
     add_all(cell);
     for (int i = 0; i < pixels; i++) {
         ivec2 pixel = corner + ivec2(i % PART, i / PART);
-        vec3 value = first[i] + (weight[i] > 0.0 ? sum[i] / weight[i] : vec3(0.0));
+        vec3 value = reference + sum[i] / max(weight[i], own_least);
+        if (weight[i] < 0.0) // the pixel is a surface of its own, or there is none
+            value = nearest[i] < 0 ? vec3(0.0)
+                                   : texelFetch(pyramid, ivec2(nearest[i] & 0xffff, nearest[i] >> 16), 0).rgb;
         if (all(lessThanEqual(pixel, last)))
-            imageStore(result, pixel, vec4(value, 1.0));
+            imageStore(result, pixel, vec4(max(value, vec3(0.0)), 1.0));
     }
 }
