@@ -15,7 +15,7 @@ enum {
     REGION_BLOCKS = 64,
     MOST_LEVELS = 3,   // REGION is 2 to the power of it
     MOST_PARTS = 3,    // of a block
-    PART_BYTES = 48,   // plugins/isr/cluster.glsl
+    PART_BYTES = 64,   // plugins/isr/cluster.glsl
     MOST_TEXELS = 128, // along the edge of one of the finest blocks
 };
 

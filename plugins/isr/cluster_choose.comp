@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the patch that each block belongs to, and has its first blocks make the patch's VPLs, by
 // index face, row, column of the finest blocks.
-// In:  parts of each block; flux of each work group; variation pyramid RGBA16F; faces; table
+// In:  parts of each block, those there are first; flux of each work group; variation pyramid RGBA16F; faces; table
 // Out: ag_vpl[], area 0 where a block makes none; valid VPLs of each 256, 0 before
 // Source: Nichols, Shopf, Wyman 2009, sec. 3.4, fig. 7.
 #include "passes/include/pass/scene_shared.h"
@@ -42,11 +42,6 @@ const int most_levels = 3;
 
 shared vec2 node_flux[most_levels + 1][all_here]; // of level l: the first all_here >> 2 l
 shared part shared_parts[all_here * most_parts];
-
-float part_flux(part p)
-{
-    return p.flux_area.r + p.flux_area.g + p.flux_area.b;
-}
 
 // Flux of the patches of all levels in this region. Returns that of all regions.
 float sum_nodes(float flux)
@@ -96,47 +91,6 @@ int patch_level(ivec4 row, ivec2 at, float whole, out bool mixed)
     return 0;
 }
 
-part join(part a, part b)
-{
-    float weight = a.position_weight.w + b.position_weight.w;
-    float t = weight > 0.0 ? b.position_weight.w / weight : 0.0;
-    return part(a.flux_area + b.flux_area,
-                vec4(mix(a.position_weight.xyz, b.position_weight.xyz, t), weight),
-                mix(a.normal, b.normal, t));
-}
-
-bool are_one(part a, part b)
-{
-    return same_surface(a.position_weight.xyz, a.normal.xyz, b.position_weight.xyz, b.normal.xyz,
-                        a.flux_area.w + b.flux_area.w);
-}
-
-// Adds `b` to the part on its surface. Of one surface too many the faintest adds its energy alone, to
-// that which faces as it does most. `one`: all is one surface.
-void add_part(inout part p[most_parts], part b, bool one)
-{
-    int same = -1, faintest = 0;
-    for (int k = most_parts - 1; k >= 0; k--) {
-        if (one || !(p[k].position_weight.w > 0.0) || are_one(p[k], b))
-            same = k;
-        if (p[k].position_weight.w < p[faintest].position_weight.w)
-            faintest = k;
-    }
-    if (same >= 0) {
-        p[same] = join(p[same], b);
-        return;
-    }
-    if (p[faintest].position_weight.w < b.position_weight.w) {
-        part other = p[faintest];
-        p[faintest] = b;
-        b = other;
-    }
-    vec3 alike = vec3(dot(p[0].normal.xyz, b.normal.xyz), dot(p[1].normal.xyz, b.normal.xyz),
-                      dot(p[2].normal.xyz, b.normal.xyz));
-    int like = alike.x >= max(alike.y, alike.z) ? 0 : alike.y >= alike.z ? 1 : 2;
-    p[like].flux_area += b.flux_area;
-}
-
 // Brings the parts of the four patches at `here` and `step_` blocks on together. A block's parts
 // that are there come first.
 void merge_four(int here, int step_, bool one)
@@ -147,9 +101,8 @@ void merge_four(int here, int step_, bool one)
         more = false;
         for (int child = 0; child < 4; child++) {
             int from = here + step_ * ((child & 1) + (child >> 1) * region);
-            part b = shared_parts[from * most_parts + k];
-            if (b.position_weight.w > 0.0) {
-                add_part(p, b, one);
+            if (shared_parts[from * most_parts + k].position_weight.w > 0.0) {
+                add_part(p, shared_parts[from * most_parts + k], one);
                 more = true;
             }
         }
@@ -174,11 +127,20 @@ void merge_parts()
     barrier();
 }
 
+// Edges of the parallelogram that is spread as a part's texels are: those of a uniform one with edges
+// e and f are by (e e^T + f f^T) / 12, which a Cholesky factor fulfils. A texel alone is spread by 1 / 12.
+mat2 shape_of(part p)
+{
+    vec3 s = 12.0 * p.place_spread.yzw + vec3(1.0, 0.0, 1.0);
+    float a = sqrt(max(s.x, 1.0)), b = s.y / a;
+    return mat2(a, b, 0.0, sqrt(max(s.z - b * b, 0.1)));
+}
+
 ag_vpl make_vpl(part p, int face)
 {
-    vec3 n = p.normal.xyz / max(length(p.normal.xyz), 1e-6), q = p.position_weight.xyz;
+    vec3 n = p.normal_place.xyz / max(length(p.normal_place.xyz), 1e-6), q = p.position_weight.xyz;
     ag_vpl v = ag_vpl(vec4(q, p.flux_area.w), vec4(n, 0.0), vec4(p.flux_area.rgb, 0.0));
-    pack_edges(faces[face], q, n, v);
+    pack_parallelogram(faces[face], q, n, shape_of(p), v);
     return v;
 }
 
@@ -189,11 +151,13 @@ void main()
     bool inside = all(lessThan(at, ivec2(row.w))), mixed;
     int index = row.y + at.y * row.w + at.x, here = me.y * region + me.x;
     float flux = 0.0;
-    for (int k = 0; k < most_parts; k++) {
-        part p = no_part;
-        if (inside)
-            p = parts[index * most_parts + k];
-        flux += part_flux(p);
+    for (int k = 0; k < most_parts; k++)
+        shared_parts[here * most_parts + k].position_weight.w = 0.0;
+    for (int k = 0; inside && k < most_parts; k++) {
+        if (!(parts[index * most_parts + k].position_weight.w > 0.0))
+            break;
+        part p = parts[index * most_parts + k];
+        flux += p.flux_area.r + p.flux_area.g + p.flux_area.b;
         shared_parts[here * most_parts + k] = p;
     }
     float whole = sum_nodes(flux);
@@ -201,14 +165,15 @@ void main()
     patch_of[here] = level + (mixed ? 4 : 0);
     merge_parts();
 
-    ivec2 first = (me >> level) << level;
-    for (int k = 0; inside && k < most_parts; k++) {
-        int slot = index * most_parts + k;
-        ag_vpl v = ag_vpl(vec4(0.0), vec4(0.0), vec4(0.0));
-        if (first == me && shared_parts[here * most_parts + k].position_weight.w > 0.0) {
-            v = make_vpl(shared_parts[here * most_parts + k], row.x);
-            atomicAdd(valid_in_group[slot / 256], 1u);
-        }
-        vpls[slot] = v;
+    // A block that is not its patch's first makes none.
+    int made = 0, slot = index * most_parts;
+    for (; ((me >> level) << level) == me && inside && made < most_parts; made++) {
+        part p = shared_parts[here * most_parts + made];
+        if (!(p.position_weight.w > 0.0))
+            break;
+        vpls[slot + made] = make_vpl(p, row.x);
+        atomicAdd(valid_in_group[(slot + made) / 256], 1u);
     }
+    for (; inside && made < most_parts; made++)
+        vpls[slot + made].position_area.w = 0.0;
 }

@@ -254,6 +254,48 @@ static void vpls_sit_on_surfaces(void **state)
     ag_scene_destroy(scene);
 }
 
+static double half_to_double(uint32_t h)
+{
+    const int exponent = (int) (h >> 10 & 31);
+    const double m = exponent ? 1 + (h & 1023) / 1024.0 : (h & 1023) / 1024.0;
+    return (h & 0x8000 ? -1 : 1) * ldexp(m, (exponent ? exponent : 1) - 15);
+}
+
+// Length of a packed edge, over the root of the area.
+static double edge_length(float packed)
+{
+    uint32_t bits;
+    memcpy(&bits, &packed, sizeof bits);
+    return hypot(half_to_double(bits & 0xffff), half_to_double(bits >> 16));
+}
+
+// A board of 4 m x 3 cm one below a spot: patches of 30 cm of it are as narrow as the board.
+static void patches_have_the_shape_of_what_they_hold(void **state)
+{
+    (void) state;
+    static const double p[3] = { -2, -1, -0.015 }, u[3] = { 0, 0, 0.03 }, v[3] = { 4, 0, 0 };
+    ag_builder *b = ag_builder_create(test_log(), "board");
+    ag_light light = ceiling_spot(50);
+    light.position[0] = light.position[1] = light.position[2] = 0;
+    add_quad(b, -1, p, u, v);
+    ag_builder_light(b, -1, &light);
+    const ag_camera camera = plain_camera("there");
+    ag_builder_camera(b, -1, &camera);
+    ag_scene *scene = finish_scene(b);
+    const char *const settings[] = { "light_flux=1", NULL };
+    ag_vpl *vpls;
+    const uint32_t count = vpls_of(scene, settings, &vpls);
+    int narrow = 0;
+    assert_in_range(count, 8, 24);
+    for (uint32_t i = 0; i < count; i++) {
+        const double e = edge_length(vpls[i].normal[3]), f = edge_length(vpls[i].flux[3]);
+        narrow += fmax(e, f) > 4 * fmin(e, f); // a block's own are about as long
+    }
+    assert_true(narrow >= (int) count / 2);
+    free(vpls);
+    ag_scene_destroy(scene);
+}
+
 // What bends more than `light_normal` within a patch is divided, however smooth its depth is.
 static void curved_walls_are_divided(void **state)
 {
@@ -408,6 +450,7 @@ int main(void)
         cmocka_unit_test(lights_share_the_patches_by_power),
         cmocka_unit_test(a_flat_wall_has_the_coarsest_patches),
         cmocka_unit_test(vpls_sit_on_surfaces),
+        cmocka_unit_test(patches_have_the_shape_of_what_they_hold),
         cmocka_unit_test(curved_walls_are_divided),
         cmocka_unit_test(the_share_of_flux_says_how_many),
         cmocka_unit_test(nothing_lit_makes_no_vpl),
