@@ -49,7 +49,7 @@ static void write_number(FILE *f, double value)
 
 static const char *ylabel(const study_panel *p)
 {
-    return p->of == PANEL_MS ? "frame, median ms" : "RMSE over RMS of indirect light, %";
+    return p->of == PANEL_MS ? "frame, median ms" : "RMSE of indirect light, %";
 }
 
 // ---- lines -----------------------------------------------------------------------------------
@@ -146,7 +146,7 @@ static void write_bars(FILE *f, const study *s, const study_panel *p, const cJSO
             "END_OF_DATA\nset style data histograms\nset style histogram clustered gap 2\n"
             "set style fill solid 0.9 noborder\nset key outside right top\n"
             "set yrange [0:*]\nset ylabel '%s'\nplot ",
-            ms ? "frame, median ms" : "RMSE of indirect light, %");
+            ylabel(p));
     for (int k = 0; s->values[k]; ++k)
         for (int over = 0; over < (ms ? 1 : 2); ++over, ++bars) {
             char title[96];
