@@ -41,44 +41,43 @@ const int pixels = PART * PART;
 const int parts = edge / 2 / PART;  // along a cell's edge
 const float own_least = 1e-4; // weight of what stands for a pixel in its own block
 
-// What is known of the pixels while pieces of surfaces are added: the plane that each lies on, the sum
-// of weight x (value - reference), the weight. Below 0: no piece is of the pixel's surface yet; -1 less
-// the distance to the nearest of its own block.
-ivec2 corner;
-vec3 plane_normal[pixels], sum[pixels], reference;
-float plane_height[pixels], weight[pixels];
-int nearest[pixels]; // piece, as y << 16 | x in the pyramid
+// What a pixel has while pieces of surfaces are added.
+struct pixel_sum {
+    vec3 normal;  // of the plane that it lies on
+    float height; // of that
+    vec3 first;   // value of the first piece of its surface; before there is one, of the nearest piece
+                  // of its own block
+    vec3 sum;     // of weight x (value - first), so that equal values give just that
+    float weight; // below 0: there is none yet; -1 less the distance to the nearest
+};
 
-// A piece of surface: seen at `p` with normal `n`, at `place` on the screen, lit by `value`, which
-// stands at `code`. Those of its own block are always of weight, and a smooth one is its pixels' own
-// surface.
+// A piece of surface: seen at `p` with normal `n`, at `place` on the screen, lit by `value`. Those of
+// its own block are always of weight, and a smooth one is its pixels' own surface.
 struct piece {
     vec2 place;
     vec3 p, n, value;
-    int code;
     bool own, smooth_;
 };
 
-void add(piece s)
+void add(piece s, ivec2 corner, inout pixel_sum to[pixels])
 {
-    vec3 beyond = s.value - reference;
     float least = s.own ? own_least : 0.0;
     float reach2 = limits.x * limits.x * dot(s.p, s.p);
     for (int i = 0; i < pixels; i++) {
         vec2 off = abs(vec2(corner + ivec2(i % PART, i / PART)) + 0.5 - s.place);
         vec2 tent = max(1.0 - off / float(edge), 0.0);
         // surface_is_same(), with the pixel's plane at hand.
-        float above = dot(s.p, plane_normal[i]) - plane_height[i];
-        vec3 bend = plane_normal[i] - s.n;
+        float above = dot(s.p, to[i].normal) - to[i].height;
+        vec3 bend = to[i].normal - s.n;
         bool same = (s.own && s.smooth_) ||
                     (dot(bend, bend) < limits.y * limits.y && above * above < reach2);
         float w = same ? max(tent.x * tent.y, least) : 0.0;
         float far = -1.0 - off.x - off.y;
-        bool nearer = s.own && far > weight[i];
-        nearest[i] = nearer ? s.code : nearest[i];
-        float before = w > 0.0 ? max(weight[i], 0.0) : nearer ? far : weight[i];
-        weight[i] = before + w;
-        sum[i] += w * beyond;
+        bool begins = to[i].weight < 0.0 && (w > 0.0 || (s.own && far > to[i].weight));
+        to[i].first = begins ? s.value : to[i].first;
+        to[i].weight = w > 0.0 ? max(to[i].weight, 0.0) + w : begins ? far : to[i].weight;
+        if (w > 0.0) // else the value may be no number
+            to[i].sum += w * (s.value - to[i].first);
     }
 }
 
@@ -107,21 +106,18 @@ piece fetch(ivec2 block, int bit, bool own, bool smooth_)
     s.place = vec2(pixel) + (smooth_ ? 0.0 : 0.5);
     s.p = texelFetch(position_map, pixel, 0).xyz;
     s.n = texelFetch(normal_map, pixel, 0).xyz;
-    ivec2 at = smooth_ ? level.zw + block : pixel;
-    s.value = texelFetch(pyramid, at, 0).rgb;
-    s.code = at.y << 16 | at.x;
+    s.value = texelFetch(pyramid, smooth_ ? level.zw + block : pixel, 0).rgb;
     s.own = own;
     s.smooth_ = smooth_;
     return s;
 }
 
-void add_all(ivec2 cell)
+void add_all(ivec2 cell, ivec2 corner, inout pixel_sum to[pixels])
 {
     ivec2 block = cell >> 1, side = side_of(cell);
     uint word = blocks[block.y * level.x + block.x];
     uvec2 left = uvec2(0u);
-    bool smooth_ = false, begun = false;
-    reference = vec3(0.0);
+    bool smooth_ = false;
     // One piece a round, whichever block it is of: neighbours in a vector unit stay together.
     for (int i = -1; i < 4;) {
         ivec2 step_ = side * ivec2(i & 1, i >> 1);
@@ -129,10 +125,7 @@ void add_all(ivec2 cell)
             int bit = left.x != 0u ? findLSB(left.x) : 32 + findLSB(left.y);
             left = left.x != 0u ? uvec2(left.x & (left.x - 1u), left.y)
                                 : uvec2(0u, left.y & (left.y - 1u));
-            piece s = fetch(block + step_, bit, i == 0, smooth_);
-            reference = begun ? reference : s.value;
-            begun = true;
-            add(s);
+            add(fetch(block + step_, bit, i == 0, smooth_), corner, to);
         }
         while ((left.x | left.y) == 0u && ++i < 4) {
             step_ = side * ivec2(i & 1, i >> 1);
@@ -151,23 +144,19 @@ void main()
     uint code = cells[index / (parts * parts)];
     int part = index % (parts * parts);
     ivec2 cell = ivec2(code & 0xffffu, code >> 16);
-    corner = cell * (edge / 2) + ivec2(part % parts, part / parts) * PART;
+    ivec2 corner = cell * (edge / 2) + ivec2(part % parts, part / parts) * PART;
     ivec2 last = view.size.xy - 1;
+    pixel_sum to[pixels];
     for (int i = 0; i < pixels; i++) {
         ivec2 pixel = min(corner + ivec2(i % PART, i / PART), last);
-        plane_normal[i] = texelFetch(normal_map, pixel, 0).xyz;
-        plane_height[i] = dot(texelFetch(position_map, pixel, 0).xyz, plane_normal[i]);
-        sum[i] = vec3(0.0);
-        weight[i] = -1e9;
-        nearest[i] = -1;
+        vec3 n = texelFetch(normal_map, pixel, 0).xyz;
+        float height = dot(texelFetch(position_map, pixel, 0).xyz, n);
+        to[i] = pixel_sum(n, height, vec3(0.0), vec3(0.0), -1e9);
     }
-    add_all(cell);
+    add_all(cell, corner, to);
     for (int i = 0; i < pixels; i++) {
         ivec2 pixel = corner + ivec2(i % PART, i / PART);
-        vec3 value = reference + sum[i] / max(weight[i], own_least);
-        if (weight[i] < 0.0) // the pixel is a surface of its own, or there is none
-            value = nearest[i] < 0 ? vec3(0.0)
-                                   : texelFetch(pyramid, ivec2(nearest[i] & 0xffff, nearest[i] >> 16), 0).rgb;
+        vec3 value = to[i].first + (to[i].weight > 0.0 ? to[i].sum / to[i].weight : vec3(0.0));
         if (all(lessThanEqual(pixel, last)))
             imageStore(result, pixel, vec4(max(value, vec3(0.0)), 1.0));
     }
