@@ -2,6 +2,7 @@
 #include "cluster.h"
 
 #include <gi/eye_rows.h>
+#include <gi/visibility.h>
 #include <pass/gather.h>
 #include <pass/readback.h>
 
@@ -27,6 +28,9 @@ enum {
     CLAMP = EYE + GI_EYE_ROWS,
     CLAMP_D2,
     SOLID_ANGLE,
+    VISIBILITY,
+    ISM_SIZE,
+    ISM_POINTS,
     PARAM_COUNT,
 };
 
@@ -116,6 +120,7 @@ static const gi_param params[] = {
                       .def = 0,
                       .choices = solid_angle_names,
                       .help = "of a texel: its own, or the paper's equal share (eq. 4)" },
+    GI_VISIBILITY_PARAMS(VISIBILITY, ISM_SIZE, ISM_POINTS),
     { .name = NULL },
 };
 
@@ -135,6 +140,8 @@ typedef struct isr {
     ag_rsm_pass map;
     ag_vpl_pass vpl;
     isr_clusters clusters;
+    ag_ism_samples *points; // NULL until visibility wants them
+    ag_ism_pass ism;
     ag_multires_pass eye;
     ag_gather_pass gather;
     ag_upsample_pass upsample;
@@ -148,7 +155,10 @@ static fg_status isr_set(void *self, const gi_value *values)
     isr *s = self;
     for (int i = 0; i < PARAM_COUNT; i++)
         s->values[i] = values[i];
-    return FG_OK;
+    if (s->points || values[VISIBILITY].i != GI_VISIBILITY_ISM)
+        return FG_OK;
+    const ag_ism_samples_desc samples = { .log = s->env.log, .scene = s->env.scene };
+    return ag_ism_samples_create(&samples, &s->points);
 }
 
 static void isr_destroy(void *self)
@@ -156,6 +166,7 @@ static void isr_destroy(void *self)
     isr *s = self;
     if (!s)
         return;
+    ag_ism_samples_destroy(s->points);
     ag_readback_finish(&s->vpl_count);
     ag_readback_finish(&s->texel_count);
     free(s);
@@ -172,8 +183,13 @@ static fg_status isr_create(const gi_env *env, const gi_value *values, void **se
         return FG_ERR_MEMORY;
     }
     s->env = *env;
+    const fg_status status = isr_set(s, values);
+    if (status) {
+        isr_destroy(s);
+        return status;
+    }
     *self = s;
-    return isr_set(s, values);
+    return FG_OK;
 }
 
 static void declare_clusters(isr *s, fg_graph *g)
@@ -212,6 +228,19 @@ static void declare_vpls(isr *s, fg_graph *g, const gi_inputs *in)
     ag_readback_declare(&s->vpl_count, g, "isr.count_vpls", s->vpl.count, 4 * sizeof(uint32_t));
 }
 
+static void declare_visibility(isr *s, fg_graph *g, const gi_inputs *in)
+{
+    const ag_ism_desc ism = {
+        .prefix = "isr",
+        .vpls = s->vpl.vpls,
+        .count = s->vpl.count,
+        .capacity = s->vpl.capacity,
+        .size = (int) s->values[ISM_SIZE].i,
+        .points = (int) s->values[ISM_POINTS].i,
+    };
+    ag_ism_declare(&s->ism, g, s->points, &in->scene, &ism);
+}
+
 static void isr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
 {
     isr *s = self;
@@ -222,8 +251,11 @@ static void isr_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
         .clamp = (ag_clamp) v[CLAMP].i,
         .clamp_d2 = (float) v[CLAMP_D2].f,
         .multires = &s->eye,
+        .visibility = v[VISIBILITY].i == GI_VISIBILITY_ISM ? &s->ism : NULL,
     };
     declare_vpls(s, g, in);
+    if (gather.visibility)
+        declare_visibility(s, g, in);
     ag_multires_declare(&s->eye, g, &in->scene, &in->gbuffer, &eye);
     ag_gather_declare(&s->gather, g, &in->scene, &in->gbuffer, &s->vpl, &gather);
     ag_upsample_declare(&s->upsample, g, &s->eye, s->gather.out, "isr");
@@ -243,7 +275,7 @@ static int isr_counters(void *self, gi_counter *out, int max)
     uint32_t vpls[4] = { 0 }, texels[4] = { 0 };
     int n = 0;
     if (n < max)
-        out[n++] = (gi_counter){ "shadow_maps", 0 };
+        out[n++] = (gi_counter){ "shadow_maps", s->values[VISIBILITY].i ? s->ism.map_count : 0 };
     if (n < max && ag_readback_latest(&s->texel_count, texels))
         out[n++] = (gi_counter){ "samples", texels[0] };
     if (n < max && ag_readback_latest(&s->vpl_count, vpls))
@@ -257,7 +289,7 @@ static const gi_plugin plugin = {
     .source = "Nichols, Shopf, Wyman. Hierarchical Image-Space Radiosity for Interactive Global "
               "Illumination. EGSR 2009, sec. 3.1-3.4",
     .summary = "one diffuse bounce, gathered from VPLs where the image needs it and interpolated "
-               "between; no indirect visibility",
+               "between; indirect visibility as an option",
     .params = params,
     .layers = layers,
     .needs = AG_FEATURE_LIGHT | AG_FEATURE_GEOMETRY,
