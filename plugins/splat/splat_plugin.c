@@ -37,7 +37,7 @@ static const gi_param params[] = {
                .quality = true,
                .sweep = vpl_sweep,
                .help = "splats: at most this many, split over the maps by power" },
-    GI_EYE_PATCH_PARAMS(EYE),
+    GI_EYE_PATCH_PARAMS(EYE, 0),
     [REACH] = { .name = "reach",
                 .type = GI_FLOAT,
                 .unit = "1",

@@ -156,11 +156,11 @@ static void refinement_round_by_round_ends_at_the_texels_of_isr(void **state)
 {
     static const int sizes[][2] = { { 1, 1 }, { 2, 1 }, { 64, 64 }, { 65, 63 }, { 1023, 517 } };
     static const char *const settings[][5] = {
-        { "vpls=1", NULL },
+        { "vpls=1", "share=3", NULL },
         { "vpls=1", "share=0", NULL },
         { "vpls=1", "share=1", "metric=slope", NULL },
         { "vpls=1", "share=2", "balanced=0", NULL },
-        { "vpls=1", "depth=1e6", "normal=4", NULL },
+        { "vpls=1", "share=3", "depth=1e6", "normal=4", NULL },
     };
     (void) state;
     ag_scene *scenes[] = { furnished_room(), lone_quad(0.6) };
@@ -174,7 +174,7 @@ static void refinement_round_by_round_ends_at_the_texels_of_isr(void **state)
 
 static void thresholds_of_zero_make_each_pixel_a_patch(void **state)
 {
-    static const char *const shared[] = { "vpls=1", "depth=0", "normal=0", NULL };
+    static const char *const shared[] = { "vpls=1", "depth=0", "normal=0", "share=3", NULL };
     static const char *const paper[] = { "vpls=1", "depth=0", "normal=0", "share=0", NULL };
     static const int size[2] = { 130, 67 };
     (void) state;
@@ -189,7 +189,8 @@ static void thresholds_of_zero_make_each_pixel_a_patch(void **state)
 static void splatting_and_gathering_make_one_picture(void **state)
 {
     static const int sizes[][2] = { { 1, 1 }, { 64, 64 }, { 65, 63 }, { 130, 67 } };
-    static const char *const splat[][3] = { { "vpls=256", NULL }, { "vpls=256", "share=0", NULL } };
+    static const char *const splat[][3] = { { "vpls=256", "share=3", NULL },
+                                            { "vpls=256", "share=0", NULL } };
     static const char *const isr[][5] = {
         { "source=regular", "vpls=256", "clamp=disc", NULL },
         { "source=regular", "vpls=256", "clamp=disc", "share=0", NULL },

@@ -30,7 +30,7 @@ static const char *const gi_eye_culls[] = { "compact", "stencil", NULL };
 static const double gi_eye_normal_sweep[] = { 2, 1, 0.5, 0.25, 0.1, 0, (double) NAN };
 
 // clang-format off
-#define GI_EYE_PATCH_PARAMS(first)                                                                 \
+#define GI_EYE_PATCH_PARAMS(first, share_default)                                                  \
     [(first) + GI_EYE_DEPTH] = { .name = "depth", .type = GI_FLOAT, .unit = "1", .min = 0,         \
         .max = 1e6, .def = 0.005,                                                                  \
         .help = "depth derivative, over the distance, from which on a texel is refined" },         \
@@ -41,8 +41,9 @@ static const double gi_eye_normal_sweep[] = { 2, 1, 0.5, 0.25, 0.1, 0, (double) 
         .min = 1, .max = 16384, .def = 64,                                                         \
         .help = "texels along the longer edge of the coarsest level, about" },                     \
     [(first) + GI_EYE_SHARE] = { .name = "share", .type = GI_INT, .unit = "1", .min = 0, .max = 3, \
-        .def = 3, .help = "level of the blocks in which each surface is lit at one pixel where "   \
-                          "there is an edge; 0: none, refined to pixels as in the paper" },        \
+        .def = (share_default),                                                                    \
+        .help = "level of the blocks in which each surface is lit at one pixel where there is an "  \
+                "edge; 0: none, refined to pixels as in the paper" },                              \
     [(first) + GI_EYE_METRIC] = { .name = "metric", .type = GI_ENUM, .unit = "1",                  \
         .choices = gi_eye_metrics,                                                                 \
         .help = "depth derivative: departure from a plane, or the paper's slope" },                \
@@ -50,7 +51,7 @@ static const double gi_eye_normal_sweep[] = { 2, 1, 0.5, 0.25, 0.1, 0, (double) 
         .help = "levels of neighbours differ by one at most" }
 
 #define GI_EYE_PARAMS(first)                                                                       \
-    GI_EYE_PATCH_PARAMS(first),                                                                    \
+    GI_EYE_PATCH_PARAMS(first, 3),                                                                 \
     [(first) + GI_EYE_CULL] = { .name = "cull", .type = GI_ENUM, .unit = "1",                      \
         .choices = gi_eye_culls,                                                                   \
         .help = "what is not valid: left out of a list, or by the paper's stencil" }
