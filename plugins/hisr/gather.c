@@ -156,7 +156,7 @@ void hisr_gather_declare(hisr_gather *gather, fg_graph *g, const hisr_tree *tree
                    { count, .optional = true },
                    { count, FG_USE_INDIRECT, .optional = true },
                    { multires->stencil, FG_USE_DEPTH, .optional = true } },
-        .writes = { { gather->out, FG_USE_IMAGE, FG_LOAD_DISCARD },
+        .writes = { { gather->out, FG_USE_IMAGE },
                     { gather->progress, FG_USE_STORAGE, FG_LOAD_DISCARD },
                     { gather->visited, FG_USE_STORAGE, FG_LOAD_DISCARD } },
         .run = run_gather,

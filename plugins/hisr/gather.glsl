@@ -218,8 +218,6 @@ void main()
         fetch(first + r, unit, place, p[r], n[r]);
         sum[r] = part[r] = vec3(0.0);
         taken_at[r] = r >= receivers ? -1 : walk.w != 0 ? int(progress[first + r] & 15u) : no_level;
-        if (walk.w == 0 && r < receivers)
-            imageStore(illumination, place, vec4(0.0));
     }
     // tau is a share of the irradiance that all of the light at once makes where it lands.
     float reference = max(total.flux_area.r, max(total.flux_area.g, total.flux_area.b)) /
