@@ -154,26 +154,50 @@ bool needs_refinement(node_extent node, float flux, float area, float d2, float 
 }
 
 #if CLAMP == 3 && !defined(CUT)
-// Adds a node to the receivers that it is near to. Rare and long, so it stands aside and fetches them
-// anew.
-void add_near(uint mask, int first, int n, float unit, int map)
+// Nodes that some of the receivers are near to wait here for add_near(). It stands outside of the loop
+// over the nodes: a driver without branches, as Mesa's software renderer, goes once through all that
+// stands within, for every node.
+const int near_room = 128;
+uint near_nodes[near_room], near_masks[near_room]; // the node; its receivers, bit by bit
+#ifdef VISIBILITY
+int near_maps[near_room];
+#endif
+int near_count = 0;
+
+void keep_near(int n, uint mask, int map)
 {
-    hisr_node node = nodes[n];
-    float area = node.vpl.position_area.w * unit * unit;
-    for (; mask != 0u; mask &= mask - 1u) {
+    near_nodes[near_count] = uint(n);
+    near_masks[near_count] = mask;
+#ifdef VISIBILITY
+    near_maps[near_count] = map;
+#endif
+    near_count++;
+}
+
+// Adds what waits, a node for one receiver a round.
+void add_near(int first, float unit)
+{
+    uint mask = 0u;
+    for (int k = 0; mask != 0u || k < near_count; mask &= mask - 1u) {
+        if (mask == 0u)
+            mask = near_masks[k++];
+        ag_vpl vpl = nodes[near_nodes[k - 1]].vpl;
         ivec2 place;
         vec3 p, normal;
         fetch(first + findLSB(mask), unit, place, p, normal);
-        vec3 d = node.vpl.position_area.xyz * unit - p;
-        float cos_j = max(-dot(node.vpl.normal.xyz, d), 0.0);
-        float share = patch_share(d, normal, node.vpl, area, cos_j);
+        float area = vpl.position_area.w * unit * unit;
+        vec3 d = vpl.position_area.xyz * unit - p;
+        float share = patch_share(d, normal, vpl, area, max(-dot(vpl.normal.xyz, d), 0.0));
 #ifdef VISIBILITY
-        share *= ism_visibility(map, p, normal);
+        share *= ism_visibility(near_maps[k - 1], p, normal);
 #endif
         vec4 old = imageLoad(illumination, place);
-        imageStore(illumination, place, old + vec4(node.vpl.flux.rgb * share, 0.0));
+        imageStore(illumination, place, old + vec4(vpl.flux.rgb * share, 0.0));
     }
+    near_count = 0;
 }
+#else
+const int near_room = 1, near_count = 0;
 #endif
 
 int level_of(int n)
@@ -227,83 +251,89 @@ void main()
     int i = node_index - HISR_LEVEL_START(walk.x, level); // on its level
     int steps = 0;
     uint taken = 0u;
-    for (; steps < walk.z && (level > 0 || i < walk.x); steps++) {
-        int at = HISR_LEVEL_START(walk.x, level) + i;
-        hisr_node node = nodes[at];
-        bool lit = node.vpl.position_area.w > 0.0, refine = false;
-        uint near = 0u;
-        if (lit) {
-            vec3 q = node.vpl.position_area.xyz * unit;
-            vec3 m = node.vpl.normal.xyz;
-            vec3 flux = node.vpl.flux.rgb;
-            float area = node.vpl.position_area.w * unit * unit;
-            float strongest = max(flux.r, max(flux.g, flux.b));
-            node_extent extent = unpack_extent(node.spread);
-            extent.size *= unit;
-            extent.reach *= unit * unit;
-            extent.radius *= unit;
-            extent.depth *= unit;
-            int map = 0;
+    do {
+        for (; near_count < near_room && steps < walk.z && (level > 0 || i < walk.x); steps++) {
+            int at = HISR_LEVEL_START(walk.x, level) + i;
+            hisr_node node = nodes[at];
+            bool lit = node.vpl.position_area.w > 0.0, refine = false;
+            uint near = 0u;
+            if (lit) {
+                vec3 q = node.vpl.position_area.xyz * unit;
+                vec3 m = node.vpl.normal.xyz;
+                vec3 flux = node.vpl.flux.rgb;
+                float area = node.vpl.position_area.w * unit * unit;
+                float strongest = max(flux.r, max(flux.g, flux.b));
+                node_extent extent = unpack_extent(node.spread);
+                extent.size *= unit;
+                extent.reach *= unit * unit;
+                extent.radius *= unit;
+                extent.depth *= unit;
+                int map = 0;
 #ifdef VISIBILITY
-            map = map_of(level, i);
+                map = map_of(level, i);
 #endif
-            for (int r = 0; r < BLOCK; r++) {
-                vec3 d = q - p[r];
-                float d2 = dot(d, d);
-                float cos_i = dot(n[r], d), cos_j = -dot(m, d); // times |d|
-                bool open = taken_at[r] >= level;
-                bool finer = level < walk.y && needs_refinement(extent, strongest, area, d2, cos_i,
-                                                                cos_j, limit);
-                bool take = open && !finer;
-                refine = refine || (open && finer);
-                taken_at[r] = open ? (finer ? no_level : level) : taken_at[r];
-                cos_i = max(cos_i, 0.0);
-                cos_j = max(cos_j, 0.0);
+                for (int r = 0; r < BLOCK; r++) {
+                    vec3 d = q - p[r];
+                    float d2 = dot(d, d);
+                    float cos_i = dot(n[r], d), cos_j = -dot(m, d); // times |d|
+                    bool open = taken_at[r] >= level;
+                    bool finer = level < walk.y && needs_refinement(extent, strongest, area, d2, cos_i,
+                                                                    cos_j, limit);
+                    bool take = open && !finer;
+                    refine = refine || (open && finer);
+                    taken_at[r] = open ? (finer ? no_level : level) : taken_at[r];
+                    cos_i = max(cos_i, 0.0);
+                    cos_j = max(cos_j, 0.0);
 #if CLAMP == 0
-                float spread = pi * d2;
+                    float spread = pi * d2;
 #elif CLAMP == 2
-                float spread = max(pi * d2, pi * clamp_d2 * unit * unit);
+                    float spread = max(pi * d2, pi * clamp_d2 * unit * unit);
 #else
-                float spread = pi * d2 + area;
+                    float spread = pi * d2 + area;
 #endif
 #ifdef CUT
-                part[r] += take ? 1.0 : 0.0;
+                    part[r] += take ? 1.0 : 0.0;
 #else
-                float share = take ? cos_i * cos_j / max(d2 * spread, 1e-36) : 0.0;
+                    float share = take ? cos_i * cos_j / max(d2 * spread, 1e-36) : 0.0;
 #if CLAMP == 3
-                bool is_near = take && patch_is_near(d2, cos_j, area);
-                share = is_near ? 0.0 : share;
-                near |= is_near ? 1u << r : 0u;
+                    bool is_near = take && patch_is_near(d2, cos_j, area);
+                    share = is_near ? 0.0 : share;
+                    near |= is_near ? 1u << r : 0u;
 #endif
 #ifdef VISIBILITY
-                if (share > 0.0)
-                    share *= ism_visibility(map, p[r], n[r]);
+                    if (share > 0.0)
+                        share *= ism_visibility(map, p[r], n[r]);
 #endif
-                part[r] += flux * share;
+                    part[r] += flux * share;
 #endif
-                taken += take ? 1u : 0u;
-            }
+                    taken += take ? 1u : 0u;
+                }
 #if CLAMP == 3 && !defined(CUT)
-            add_near(near, first, at, unit, map);
+                if (near != 0u)
+                    keep_near(at, near, map);
 #endif
-        }
-        if (refine) {
-            level++;
-            i *= 4;
-            continue;
-        }
-        // On to the next node that is below none of those passed.
-        i++;
-        int up = min(level, findLSB(i) >> 1);
-        level -= up;
-        i >>= 2 * up;
-        if (level == 0) {
-            for (int r = 0; r < BLOCK; r++) {
-                sum[r] += part[r];
-                part[r] = vec3(0.0);
+            }
+            if (refine) {
+                level++;
+                i *= 4;
+                continue;
+            }
+            // On to the next node that is below none of those passed.
+            i++;
+            int up = min(level, findLSB(i) >> 1);
+            level -= up;
+            i >>= 2 * up;
+            if (level == 0) {
+                for (int r = 0; r < BLOCK; r++) {
+                    sum[r] += part[r];
+                    part[r] = vec3(0.0);
+                }
             }
         }
-    }
+#if CLAMP == 3 && !defined(CUT)
+        add_near(first, unit);
+#endif
+    } while (steps < walk.z && (level > 0 || i < walk.x));
     count_visits(taken, receivers);
     bool ends = level == 0 && i >= walk.x;
     uint next = uint(HISR_LEVEL_START(walk.x, level) + i) << 4;
