@@ -21,9 +21,10 @@ FG_BEGIN
 // discontinuity the surfaces get a VPL each, the three that reflect most, so that light moves from
 // one surface to the next as smoothly as its texels do.
 //
-// A VPL sits at the mean of its texels by flux and carries their summed flux and area, so that the
-// energy does not depend on the patches. With several lights the coarsest patches are split over
-// faces by power, as ag_vpl_split() does it, and a face's finest ones are coarser in proportion.
+// A VPL sits at the mean of its texels by flux, its patch is spread as they are, and it carries
+// their summed flux and area, so that the energy does not depend on the patches. With several
+// lights the coarsest patches are split over faces by power, as ag_vpl_split() does it, and a
+// face's finest ones are coarser in proportion.
 //
 // Shapes: `vpl`: vpls, count and capacity as ag_vpl_declare() makes them, in the order of faces,
 //         rows and columns of the finest grid, three slots a block.
