@@ -13,7 +13,6 @@ static const char *const source_names[] = { "clusters", "regular", NULL };
 static const char *const clamp_names[] = { "footprint", "disc", "none", "constant", NULL };
 static const char *const solid_angle_names[] = { "exact", "equal", NULL };
 static const double flux_sweep[] = { 1, 0.1, 0.01, 0.001, 0, (double) NAN };
-static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, (double) NAN };
 
 enum {
     RSM_SIZE,
@@ -96,8 +95,6 @@ static const gi_param params[] = {
                .min = 1,
                .max = 1048576,
                .def = 256,
-               .quality = true,
-               .sweep = vpl_sweep,
                .help = "at most this many, with source=regular" },
     GI_EYE_PARAMS(EYE),
     [CLAMP] = { .name = "clamp",
