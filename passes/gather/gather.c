@@ -109,8 +109,6 @@ static fg_status run_gather(const fg_run *run, void *user)
     if (pass->multires)
         bind_texels(run, pass->multires, program);
     const int block = block_of(device, pass);
-    if (pass->clamp == AG_CLAMP_FOOTPRINT)
-        glProgramUniform1i(program, 1, block);
     if (pass->visibility)
         ag_ism_bind(run, pass->visibility);
     glUseProgram(program);

@@ -86,7 +86,7 @@ layout(location = 3) uniform ivec2 base; // size of level 0 in the pyramid
 uint receiver(int i)
 {
     uint group_index = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    return (group_index * block + i) * group * group + gl_LocalInvocationIndex;
+    return (group_index * group * group + gl_LocalInvocationIndex) * block + i;
 }
 
 bool is_there(int i)
@@ -135,34 +135,54 @@ void fetch_receiver(int i, out vec3 position, out vec3 normal)
 #if CLAMP == 3
 #include "passes/gather/near.glsl"
 
-layout(location = 1) uniform int block_size; // block, but not for the compiler to unroll
+// Which of the invocation's receivers, at `p`, are near VPL j.
+uint receivers_near(int j, vec3 p[block], float unit)
+{
+    vec3 q = vpls[j].position_area.xyz * unit, m = vpls[j].normal.xyz;
+    float area = vpls[j].position_area.w * unit * unit;
+    uint found = 0u;
+    for (int i = 0; i < block; i++) {
+        vec3 d = q - p[i];
+        if (patch_is_near(dot(d, d), max(-dot(m, d), 0.0), area))
+            found |= 1u << i;
+    }
+    return found;
+}
+
+// Adds VPL j to what receiver i has in the image.
+void add_near(int j, int i, float unit)
+{
+    vec3 p, n;
+    fetch_receiver(i, p, n);
+    vec3 d = vpls[j].position_area.xyz * unit - p * unit;
+    float area = vpls[j].position_area.w * unit * unit;
+    n /= max(length(n), 1e-6);
+    float share = patch_share(d, n, vpls[j], area, max(-dot(vpls[j].normal.xyz, d), 0.0));
+#ifdef VISIBILITY
+    share *= ism_visibility(ism_map_of(j, int(count.x)), p * unit, n);
+#endif
+    if (is_there(i)) {
+        vec4 old = imageLoad(indirect, place_of(i));
+        imageStore(indirect, place_of(i), old + vec4(vpls[j].flux.rgb * share, 0.0));
+    }
+}
 
 // Adds `near` ones of the VPLs from `start` on to the image. Rare and long, so it stands aside of the
-// loop over all VPLs and fetches its receivers anew.
-void correct_near(int start, uvec2 near, float unit)
+// loop over all VPLs and fetches its receivers anew, those that it needs.
+void correct_near(int start, uvec2 near, vec3 p[block], float unit)
 {
-    for (; (near.x | near.y) != 0u; near = near.x != 0u ? uvec2(near.x & (near.x - 1u), near.y)
-                                                        : uvec2(0u, near.y & (near.y - 1u))) {
-        int j = start + (near.x != 0u ? findLSB(near.x) : 32 + findLSB(near.y));
-        vec3 q = vpls[j].position_area.xyz * unit;
-        float area = vpls[j].position_area.w * unit * unit;
-        for (int i = 0; i < block_size; i++) {
-            vec3 p, n;
-            fetch_receiver(i, p, n);
-            vec3 d = q - p * unit;
-            float d2 = dot(d, d);
-            float cos_j = max(-dot(vpls[j].normal.xyz, d), 0.0);
-            if (!patch_is_near(d2, cos_j, area))
-                continue;
-            n /= max(length(n), 1e-6);
-            float share = patch_share(d, n, vpls[j], area, cos_j);
-#ifdef VISIBILITY
-            share *= ism_visibility(ism_map_of(j, int(count.x)), q - d, n);
-#endif
-            if (is_there(i)) {
-                vec4 old = imageLoad(indirect, place_of(i));
-                imageStore(indirect, place_of(i), old + vec4(vpls[j].flux.rgb * share, 0.0));
-            }
+    uint receivers = 0u;
+    int j = start;
+    while ((near.x | near.y | receivers) != 0u) {
+        if (receivers == 0u) {
+            j = start + (near.x != 0u ? findLSB(near.x) : 32 + findLSB(near.y));
+            near = near.x != 0u ? uvec2(near.x & (near.x - 1u), near.y)
+                                : uvec2(0u, near.y & (near.y - 1u));
+            receivers = receivers_near(j, p, unit);
+        }
+        if (receivers != 0u) {
+            add_near(j, findLSB(receivers), unit);
+            receivers &= receivers - 1u;
         }
     }
 }
@@ -242,7 +262,7 @@ void main()
         for (int i = 0; i < block; i++)
             sum[i] += part[i];
 #if CLAMP == 3
-        correct_near(start, near, unit);
+        correct_near(start, near, p, unit);
 #endif
     }
     for (int i = 0; i < block; i++) {
