@@ -28,7 +28,7 @@ struct ag_ism_point {
 // Where a map is seen from, in scene units. Its texels are directions of the hemisphere about
 // `normal`: (x, y) / (1 + z) of the unit direction, -1 .. 1 over the map.
 struct ag_ism_eye {
-    ag_vec4 position; // xyz; w: radius of the largest disc in the map
+    ag_vec4 position;                   // xyz; w: radius of the largest disc in the map
     ag_vec4 tangent, bitangent, normal; // xyz; w unused
 };
 

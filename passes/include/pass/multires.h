@@ -59,7 +59,7 @@ typedef struct ag_multires_pass {
     ag_variation_pass variation;
     fg_res flags, shared, sums, texels, count;
     fg_res marked, tiles; // without what lies in shared blocks, and with it
-    fg_res stencil; // AG_CULL_STENCIL
+    fg_res stencil;       // AG_CULL_STENCIL
     ag_pyramid pyramid;
     int width, height;
     int capacity; // of `texels`: the pixels
