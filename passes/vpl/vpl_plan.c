@@ -53,14 +53,16 @@ int vpl_plan(ag_vpl_pass *pass, int wide)
 {
     double power[AG_MAX_FACES];
     int grid[AG_MAX_FACES], groups = 0, rows = 0;
-    for (int i = 0; i < pass->face_count; i++)
+    for (int i = 0; i < pass->face_count; i++) {
         power[i] = ag_gpu_scene_face_power(pass->gpu, i);
+        grid[i] = power[i] > 0 ? pass->grid : 0;
+    }
     // -size & size: the largest power of two that divides it.
     if (pass->grid == 0)
         ag_vpl_split(power, pass->face_count, pass->budget, -pass->size & pass->size, grid);
     pass->total = 0;
     for (int i = 0; i < pass->face_count; i++) {
-        const int edge = !(power[i] > 0) ? 0 : pass->grid ? pass->grid : grid[i];
+        const int edge = grid[i];
         if (edge == 0)
             continue;
         const int32_t row[4] = { i, pass->total, groups, edge };

@@ -9,12 +9,13 @@
 // Sets every word of `text` after the first. False: `refused` is the first that is not taken.
 static bool set_words(const char *text, setting *s, char *refused, size_t size)
 {
-    const char *word = strchr(text, ' ');
-    while (word && *(word += strspn(word, " "))) {
-        snprintf(refused, size, "%.*s", (int) strcspn(word, " "), word);
+    const char *word = text + strcspn(text, " ");
+    while (*(word += strspn(word, " "))) {
+        const int length = (int) strcspn(word, " ");
+        snprintf(refused, size, "%.*s", length, word);
         if (gi_params_set(NULL, s->plugin, s->values, refused) != FG_OK)
             return false;
-        word = strchr(word, ' ');
+        word += length;
     }
     return true;
 }
