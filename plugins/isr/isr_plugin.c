@@ -96,7 +96,7 @@ static const gi_param params[] = {
                .max = 1048576,
                .def = 256,
                .help = "at most this many, with source=regular" },
-    GI_EYE_PARAMS(EYE),
+    GI_EYE_PARAMS(EYE, 3),
     [CLAMP] = { .name = "clamp",
                 .type = GI_ENUM,
                 .unit = "1",

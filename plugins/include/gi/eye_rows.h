@@ -11,7 +11,7 @@ FG_BEGIN
 // The parameters of the multiresolution buffer, the same rows in every technique that lights one:
 //
 //     enum { RSM_SIZE, ..., EYE, AFTER_EYE = EYE + GI_EYE_ROWS, ... };
-//     static const gi_param params[] = { ..., GI_EYE_PARAMS(EYE), ... };
+//     static const gi_param params[] = { ..., GI_EYE_PARAMS(EYE, 3), ... };
 //     ag_multires_desc eye = gi_eye_desc("isr", values + EYE, width, height);
 enum {
     GI_EYE_DEPTH,
@@ -50,8 +50,8 @@ static const double gi_eye_normal_sweep[] = { 2, 1, 0.5, 0.25, 0.1, 0, (double) 
     [(first) + GI_EYE_BALANCED] = { .name = "balanced", .type = GI_BOOL, .unit = "1", .def = 1,    \
         .help = "levels of neighbours differ by one at most" }
 
-#define GI_EYE_PARAMS(first)                                                                       \
-    GI_EYE_PATCH_PARAMS(first, 3),                                                                 \
+#define GI_EYE_PARAMS(first, share_default)                                                        \
+    GI_EYE_PATCH_PARAMS(first, share_default),                                                     \
     [(first) + GI_EYE_CULL] = { .name = "cull", .type = GI_ENUM, .unit = "1",                      \
         .choices = gi_eye_culls,                                                                   \
         .help = "what is not valid: left out of a list, or by the paper's stencil" }
