@@ -396,3 +396,8 @@ double image_mean(const image *img)
         sum += (double) img->rgb[i];
     return sum / (double) count;
 }
+
+bool same_bits(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}

@@ -88,4 +88,7 @@ ag_scene *sphere_scene(int rings, float albedo);
 
 double image_mean(const image *img); // over all channels
 
+// Whether floats are the same to the bit: NaN may equal NaN, -0 is not 0.
+bool same_bits(const void *a, const void *b, size_t size);
+
 #endif // TEST_IMAGE_FIXTURE_H

@@ -70,7 +70,7 @@ static void expect_rsm(ag_scene *scene, const int size[2], const char *share, co
     assert_int_equal(p.texels, size[0] * size[1]);
     assert_true(image_mean(&p.rsm) > 0);
     for (int i = 0; i < 3 * size[0] * size[1]; i++)
-        if (memcmp(p.isr.rgb + i, p.rsm.rgb + i, sizeof(float)) != 0)
+        if (!same_bits(p.isr.rgb + i, p.rsm.rgb + i, sizeof(float)))
             fail_msg("%d x %d, %s, %s, %s: pixel %d, %d is %.9g, rsm has %.9g", size[0], size[1],
                      share, cull, clamp, i / 3 % size[0], i / 3 / size[0], (double) p.isr.rgb[i],
                      (double) p.rsm.rgb[i]);
@@ -168,16 +168,16 @@ static void expect_black(ag_scene *scene, const char *what)
                                                { "share=3", "cull=stencil", "source=regular" },
                                                { "depth=0", "normal=0" },
                                                { "depth=1e6", "normal=4" } };
-    for (int s = 0; s < FG_COUNT(sizes); s++) {
-        for (int i = 0; i < FG_COUNT(settings); i++) {
-            image img = render_layer(scene, sizes[s][0], sizes[s][1], LAYER_INDIRECT,
-                                     plugin_named("isr"), settings[i]);
-            for (int k = 0; k < 3 * sizes[s][0] * sizes[s][1]; k++)
-                if (img.rgb[k] != 0)
-                    fail_msg("%s, %s, %d x %d: pixel %d is %g", what, settings[i][0], sizes[s][0],
-                             sizes[s][1], k / 3, (double) img.rgb[k]);
-            image_finish(&img);
-        }
+    for (int i = 0; i < FG_COUNT(sizes) * FG_COUNT(settings); i++) {
+        const int *size = sizes[i / FG_COUNT(settings)];
+        const char *const *chosen = settings[i % FG_COUNT(settings)];
+        image img =
+            render_layer(scene, size[0], size[1], LAYER_INDIRECT, plugin_named("isr"), chosen);
+        for (int k = 0; k < 3 * size[0] * size[1]; k++)
+            if (img.rgb[k] != 0)
+                fail_msg("%s, %s, %d x %d: pixel %d is %g", what, chosen[0], size[0], size[1],
+                         k / 3, (double) img.rgb[k]);
+        image_finish(&img);
     }
     ag_scene_destroy(scene);
 }
@@ -310,10 +310,22 @@ static image render_debug(ag_scene *scene, const char *const *settings, unsigned
 }
 
 // Memory full of NaN, memory of its own for each, another legal order, a second run.
-static void what_memory_held_does_not_show(void **state)
+static void expect_same_in_all_memory(ag_scene *scene, const char *const *settings)
 {
     static const unsigned debug[] = { 0, FG_DEBUG_POISON, FG_DEBUG_POISON | FG_DEBUG_NO_SHARING,
                                       FG_DEBUG_RANDOM_ORDER | FG_DEBUG_KEEP_ALL };
+    image want = render_debug(scene, settings, 0);
+    for (int k = 0; k < FG_COUNT(debug); k++) {
+        image got = render_debug(scene, settings, debug[k]);
+        if (!same_bits(got.rgb, want.rgb, sizeof(float) * 3 * 65 * 63))
+            fail_msg("%s, debug %u: another picture", settings[0], debug[k]);
+        image_finish(&got);
+    }
+    image_finish(&want);
+}
+
+static void what_memory_held_does_not_show(void **state)
+{
     static const char *const settings[][5] = { { "share=0" },
                                                { "share=2", "coarsest=4" },
                                                { "share=3", "coarsest=8" },
@@ -322,17 +334,8 @@ static void what_memory_held_does_not_show(void **state)
                                                  "normal=4" } };
     (void) state;
     ag_scene *room = furnished_room(2), *wall = triangle_scene();
-    for (int i = 0; i < 2 * FG_COUNT(settings); i++) {
-        ag_scene *scene = i % 2 ? wall : room;
-        image want = render_debug(scene, settings[i / 2], 0);
-        for (int k = 0; k < FG_COUNT(debug); k++) {
-            image got = render_debug(scene, settings[i / 2], debug[k]);
-            if (memcmp(got.rgb, want.rgb, sizeof(float) * 3 * 65 * 63) != 0)
-                fail_msg("%s, debug %u: another picture", settings[i / 2][0], debug[k]);
-            image_finish(&got);
-        }
-        image_finish(&want);
-    }
+    for (int i = 0; i < 2 * FG_COUNT(settings); i++)
+        expect_same_in_all_memory(i % 2 ? wall : room, settings[i / 2]);
     ag_scene_destroy(room);
     ag_scene_destroy(wall);
 }

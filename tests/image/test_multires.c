@@ -141,6 +141,19 @@ static int level_of(const result *r, int x, int y)
     return found;
 }
 
+// No pixel beside pixel `i` is of a level more than one away from its own.
+static void expect_balance(const result *r, const signed char *levels, int i)
+{
+    static const int beside[4][2] = { { 1, 0 }, { 0, 1 }, { 1, 1 }, { -1, 1 } };
+    const int w = r->f->width, h = r->f->height;
+    for (int k = 0; k < 4; k++) {
+        const int x = i % w + beside[k][0], y = i / w + beside[k][1];
+        if (x >= 0 && x < w && y < h && abs(levels[y * w + x] - levels[i]) > 1)
+            fail_msg("%s: pixels %d, %d and %d, %d are of levels %d and %d", r->name, i % w, i / w,
+                     x, y, levels[i], levels[y * w + x]);
+    }
+}
+
 static void expect_cover(const result *r)
 {
     const int w = r->f->width, h = r->f->height;
@@ -148,15 +161,8 @@ static void expect_cover(const result *r)
     assert_non_null(levels);
     for (int i = 0; i < w * h; i++)
         levels[i] = (signed char) level_of(r, i % w, i / w);
-    for (int i = 0; i < w * h && !r->desc->unbalanced; i++) {
-        static const int beside[4][2] = { { 1, 0 }, { 0, 1 }, { 1, 1 }, { -1, 1 } };
-        for (int k = 0; k < 4; k++) {
-            const int x = i % w + beside[k][0], y = i / w + beside[k][1];
-            if (x >= 0 && x < w && y < h && abs(levels[y * w + x] - levels[i]) > 1)
-                fail_msg("%s: pixels %d, %d and %d, %d are of levels %d and %d", r->name, i % w,
-                         i / w, x, y, levels[i], levels[y * w + x]);
-        }
-    }
+    for (int i = 0; i < w * h && !r->desc->unbalanced; i++)
+        expect_balance(r, levels, i);
     free(levels);
 }
 
@@ -273,7 +279,7 @@ static void expect_counts(const result *r)
     for (int i = 0; i < 3; i++) {
         const uint32_t groups = (r->count[0] + each[i] - 1) / each[i];
         const uint32_t want[4] = { groups, 1, 1, 0 }; // no test has 65536
-        assert_memory_equal(r->count + 4 * (i + 1), want, sizeof want);
+        assert_memory_equal(r->count + 4 * ((size_t) i + 1), want, sizeof want);
     }
 }
 
@@ -313,6 +319,18 @@ static ag_multires_desc random_desc(const int size[2], int share, uint32_t *seed
     return desc;
 }
 
+// With every share; at a large size with one.
+static void expect_all_shares(feed *f, int kind, uint32_t *seed)
+{
+    const int size[2] = { f->width, f->height };
+    const bool large = size[0] > 1000;
+    const int first = large ? kind % 2 * 3 : 0, last = large ? first : 3;
+    for (int share = first; share <= last; share++) {
+        const ag_multires_desc desc = random_desc(size, share, seed);
+        expect_all(f, &desc);
+    }
+}
+
 static void each_pixel_is_covered_once_and_what_covers_it_is_listed(void **unused)
 {
     uint32_t seed = 11;
@@ -322,14 +340,7 @@ static void each_pixel_is_covered_once_and_what_covers_it_is_listed(void **unuse
             feed f;
             feed_init(&f, sizes[s][0], sizes[s][1], 0);
             feed_scene(&f, (feed_kind) kind, 3u * (uint32_t) s + (uint32_t) kind);
-            // Sharing is defined for surfaces; a block of noise has one for each pixel.
-            const int step = sizes[s][0] > 1000 ? 3 : 1;
-            for (int share = sizes[s][0] > 1000 ? kind % 2 * 3 : 0; share <= 3; share += step) {
-                const ag_multires_desc desc = random_desc(sizes[s], share, &seed);
-                expect_all(&f, &desc);
-                if (sizes[s][0] > 1000)
-                    break;
-            }
+            expect_all_shares(&f, kind, &seed);
             feed_finish(&f);
         }
     }
@@ -451,13 +462,14 @@ static void expect_equal_culls(feed *f, const ag_multires_desc *desc, int vpl_co
     const int across = eyes[0].pyramid.size[0];
     double sum = 0;
     for (int i = 0; i < across * eyes[0].pyramid.size[1]; i++) {
-        sum += (double) out[0][4 * i];
-        if (memcmp(out[0] + 4 * i, out[1] + 4 * i, 16) != 0)
+        const float *list_rgba = out[0] + 4 * (size_t) i, *stencil_rgba = out[1] + 4 * (size_t) i;
+        sum += (double) list_rgba[0];
+        if (!same_bits(list_rgba, stencil_rgba, 16))
             fail_msg("%d x %d, share %d, %d VPLs, clamp %d: %d, %d is %.9g, %g in a list, %.9g, %g "
                      "by stencil",
                      f->width, f->height, desc->share, vpl_count, (int) clamp, i % across,
-                     i / across, (double) out[0][4 * i], (double) out[0][4 * i + 3],
-                     (double) out[1][4 * i], (double) out[1][4 * i + 3]);
+                     i / across, (double) list_rgba[0], (double) list_rgba[3],
+                     (double) stencil_rgba[0], (double) stencil_rgba[3]);
     }
     assert_true(sum > 0 || vpl_count == 1 || f->width < 8);
     for (int i = 0; i < 2; i++)
