@@ -36,27 +36,31 @@ void feed_finish(feed *f)
     *f = (feed){ 0 };
 }
 
-void feed_plane(feed *f, const int pixels[4], const double n[3], double d)
+// One pixel of a plane, where nothing nearer is.
+static void plane_pixel(feed *f, int x, int y, const double n[3], double d)
 {
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     const double longer = f->width > f->height ? f->width : f->height;
-    for (int y = pixels[1]; y < pixels[3] && y < f->height; y++) {
-        for (int x = pixels[0]; x < pixels[2] && x < f->width; x++) {
-            const size_t i = (size_t) y * (size_t) f->width + (size_t) x;
-            const double ray[3] = { (x + 0.5 - 0.5 * f->width) / (focal * longer),
-                                    (y + 0.5 - 0.5 * f->height) / (focal * longer), -1 };
-            const double along = n[0] * ray[0] + n[1] * ray[1] + n[2] * ray[2];
-            const double t = along != 0 ? d / along : 0;
-            if (t < near_plane || near_plane / t <= (double) f->depth[i])
-                continue;
-            f->depth[i] = (float) (near_plane / t);
-            for (int k = 0; k < 3; k++) {
-                f->normal[i][k] = (float) ((along < 0 ? n[k] : -n[k]) / length);
-                f->position[i][k] = (float) (t * ray[k]);
-            }
-            f->normal[i][3] = f->position[i][3] = 1;
-        }
+    const size_t i = (size_t) y * (size_t) f->width + (size_t) x;
+    const double ray[3] = { (x + 0.5 - 0.5 * f->width) / (focal * longer),
+                            (y + 0.5 - 0.5 * f->height) / (focal * longer), -1 };
+    const double along = n[0] * ray[0] + n[1] * ray[1] + n[2] * ray[2];
+    const double t = along != 0 ? d / along : 0;
+    if (t < near_plane || near_plane / t <= (double) f->depth[i])
+        return;
+    f->depth[i] = (float) (near_plane / t);
+    for (int k = 0; k < 3; k++) {
+        f->normal[i][k] = (float) ((along < 0 ? n[k] : -n[k]) / length);
+        f->position[i][k] = (float) (t * ray[k]);
     }
+    f->normal[i][3] = f->position[i][3] = 1;
+}
+
+void feed_plane(feed *f, const int pixels[4], const double n[3], double d)
+{
+    for (int y = pixels[1]; y < pixels[3] && y < f->height; y++)
+        for (int x = pixels[0]; x < pixels[2] && x < f->width; x++)
+            plane_pixel(f, x, y, n, d);
 }
 
 void feed_scene(feed *f, feed_kind kind, uint32_t seed)

@@ -163,13 +163,15 @@ static void refinement_round_by_round_ends_at_the_texels_of_isr(void **state)
         { "vpls=1", "share=3", "depth=1e6", "normal=4", NULL },
     };
     (void) state;
-    ag_scene *scenes[] = { furnished_room(), lone_quad(0.6) };
-    for (int i = 0; i < FG_COUNT(scenes); i++) {
-        for (int s = 0; s < FG_COUNT(sizes); s++)
-            for (int k = 0; k < FG_COUNT(settings); k++)
-                expect_patches(scenes[i], sizes[s], settings[k]);
-        ag_scene_destroy(scenes[i]);
+    ag_scene *room = furnished_room(), *quad = lone_quad(0.6);
+    for (int s = 0; s < FG_COUNT(sizes); s++) {
+        for (int k = 0; k < FG_COUNT(settings); k++) {
+            expect_patches(room, sizes[s], settings[k]);
+            expect_patches(quad, sizes[s], settings[k]);
+        }
     }
+    ag_scene_destroy(room);
+    ag_scene_destroy(quad);
 }
 
 static void thresholds_of_zero_make_each_pixel_a_patch(void **state)
@@ -196,22 +198,23 @@ static void splatting_and_gathering_make_one_picture(void **state)
         { "source=regular", "vpls=256", "clamp=disc", "share=0", NULL },
     };
     (void) state;
-    ag_scene *scenes[] = { furnished_room(), lone_quad(0.6) };
-    for (int i = 0; i < FG_COUNT(scenes); i++) {
-        for (int k = 0; k < 2 * FG_COUNT(sizes); k++) {
-            const int w = sizes[k / 2][0], h = sizes[k / 2][1];
-            char what[64];
-            snprintf(what, sizeof what, "scene %d, %d x %d, setting %d", i, w, h, k % 2);
-            image a = indirect(scenes[i], sizes[k / 2], "splat", splat[k % 2], NULL);
-            image b = indirect(scenes[i], sizes[k / 2], "isr", isr[k % 2], NULL);
-            expect_finite(&a);
-            expect_same(&a, &b, what);
-            assert_true(i == 1 || image_mean(&a) > 0);
-            image_finish(&a);
-            image_finish(&b);
-        }
-        ag_scene_destroy(scenes[i]);
+    ag_scene *room = furnished_room(), *quad = lone_quad(0.6);
+    for (int k = 0; k < 4 * FG_COUNT(sizes); k++) {
+        ag_scene *scene = k % 4 < 2 ? room : quad;
+        const int *size = sizes[k / 4];
+        char what[64];
+        snprintf(what, sizeof what, "%s, %d x %d, setting %d", scene == room ? "room" : "quad",
+                 size[0], size[1], k % 2);
+        image a = indirect(scene, size, "splat", splat[k % 2], NULL);
+        image b = indirect(scene, size, "isr", isr[k % 2], NULL);
+        expect_finite(&a);
+        expect_same(&a, &b, what);
+        assert_true(scene == quad || image_mean(&a) > 0);
+        image_finish(&a);
+        image_finish(&b);
     }
+    ag_scene_destroy(room);
+    ag_scene_destroy(quad);
 }
 
 static void every_pixel_a_patch_is_the_full_gather(void **state)

@@ -163,6 +163,16 @@ static void expect_change(const variation_case *c, const float *got, const block
     }
 }
 
+// Least and most depth, exactly.
+static void expect_range(const variation_case *c, const float got[2], const block *want, int level,
+                         const int at[2])
+{
+    for (int i = 0; i < 2; i++)
+        if ((double) got[i] != want->range[i])
+            fail_msg("%s: level %d, block %d, %d: range %.9g, not %.9g", name_of(c), level, at[0],
+                     at[1], (double) got[i], want->range[i]);
+}
+
 static void expect_level(const feed *f, const variation_case *c, const result *r, int layer,
                          int level, const double *depth)
 {
@@ -174,10 +184,7 @@ static void expect_level(const feed *f, const variation_case *c, const result *r
             const size_t place = place_of(r, layer, level, x, y);
             const block *want = &blocks[y * across + x];
             expect_change(c, r->change + place, want, level, (int[2]){ x, y });
-            for (int i = 0; i < 2; i++)
-                if ((double) r->range[place + i] != want->range[i])
-                    fail_msg("%s: level %d, block %d, %d: range %.9g, not %.9g", name_of(c), level,
-                             x, y, (double) r->range[place + i], want->range[i]);
+            expect_range(c, r->range + place, want, level, (int[2]){ x, y });
         }
     }
     free(blocks);
@@ -279,6 +286,19 @@ static void faces_of_lights_are_reduced_each_for_itself(void **state)
     }
 }
 
+// The most of a level: of component `k` of the change, and of depth.
+static void most_of_level(const result *r, int layer, int level, int k, float most[2])
+{
+    most[0] = most[1] = 0;
+    for (int y = 0; y < r->pass.pyramid.base[1] >> (level - 1); y++) {
+        for (int x = 0; x < r->pass.pyramid.base[0] >> (level - 1); x++) {
+            const size_t place = place_of(r, layer, level, x, y);
+            most[0] = fmaxf(most[0], r->change[place + (size_t) k]);
+            most[1] = fmaxf(most[1], r->range[place + 1]);
+        }
+    }
+}
+
 // One texel that stands out, of depth or of normal: the blocks about it see it at every level.
 static void expect_spikes(const int size[2], int (*spikes)[2], int count, ag_depth_metric metric,
                           bool depth)
@@ -299,20 +319,13 @@ static void expect_spikes(const int size[2], int (*spikes)[2], int count, ag_dep
     }
     expect_brute_force(&f, &c);
     result r = run_pass(&f, &c);
-    for (int i = 0; i < count; i++) {
-        for (int level = 1; level <= c.levels; level++) {
-            float most = 0, range = 0;
-            for (int y = 0; y < r.pass.pyramid.base[1] >> (level - 1); y++) {
-                for (int x = 0; x < r.pass.pyramid.base[0] >> (level - 1); x++) {
-                    const size_t place = place_of(&r, i, level, x, y);
-                    most = fmaxf(most, r.change[place + (depth ? 3 : 0)]);
-                    range = fmaxf(range, r.range[place + 1]);
-                }
-            }
-            if (most < 0.1f || (depth && range != 0.6f))
-                fail_msg("%d x %d: spike at %d, %d, metric %d is lost on level %d: %g", size[0],
-                         size[1], spikes[i][0], spikes[i][1], (int) metric, level, (double) most);
-        }
+    for (int k = 0; k < count * c.levels; k++) {
+        const int i = k / c.levels, level = 1 + k % c.levels;
+        float most[2];
+        most_of_level(&r, i, level, depth ? 3 : 0, most);
+        if (most[0] < 0.1f || (depth && most[1] != 0.6f))
+            fail_msg("%d x %d: spike at %d, %d, metric %d is lost on level %d: %g", size[0],
+                     size[1], spikes[i][0], spikes[i][1], (int) metric, level, (double) most[0]);
     }
     result_finish(&r);
     feed_finish(&f);
@@ -336,6 +349,27 @@ static void no_texel_of_the_border_is_lost(void **state)
     }
 }
 
+// No horizon in block (x, y) of level 1 or about it.
+static bool is_whole(const feed *f, int x, int y)
+{
+    for (int k = 0; k < 16; k++)
+        if (!(depth_at(f, 0, 2 * x + k % 4 - 1, 2 * y + k / 4 - 1) > 0))
+            return false;
+    return true;
+}
+
+// The blocks of level 1 that show one plane alone change by `bound` at most.
+static void expect_flat(const feed *f, const result *r, double bound, int plane)
+{
+    const int across = f->width / 2, down = f->height / 2;
+    for (int i = 0; i < across * down; i++) {
+        const int x = i % across, y = i / across;
+        const float *got = r->change + place_of(r, 0, 1, x, y);
+        if (is_whole(f, x, y) && (double) got[3] > bound)
+            fail_msg("plane %d, block %d, %d: %g", plane, x, y, (double) got[3]);
+    }
+}
+
 // Reversed depth of a plane is linear over the screen. Rounded to float, the three depths depart by
 // 2^-24 of themselves at most, the middle one twice over, and their sum by one such step more:
 // 5 x 2^-24 by axis, sqrt(2) of that by both, and what half floats add.
@@ -353,16 +387,7 @@ static void planes_do_not_bend_however_steep(void **state)
         feed_init(&f, c.width, c.height, 0);
         feed_plane(&f, (int[4]){ 0, 0, c.width, c.height }, slopes[i], -1);
         result r = run_pass(&f, &c);
-        for (int y = 0; y < c.height / 2; y++) {
-            for (int x = 0; x < c.width / 2; x++) {
-                bool whole = true; // no horizon in it or about it
-                for (int k = 0; k < 16; k++)
-                    whole = whole && depth_at(&f, 0, 2 * x + k % 4 - 1, 2 * y + k / 4 - 1) > 0;
-                const float *got = r.change + place_of(&r, 0, 1, x, y);
-                if (whole && (double) got[3] > bound)
-                    fail_msg("plane %d, block %d, %d: %g", i, x, y, (double) got[3]);
-            }
-        }
+        expect_flat(&f, &r, bound, i);
         result_finish(&r);
         feed_finish(&f);
     }
@@ -383,13 +408,12 @@ static void rims_of_surfaces_show(void **state)
         const int edge = 21 + k / 2; // within a block, and between two
         feed_plane(&f, (int[4]){ 0, 0, edge, 64 }, (double[3]){ 0, 0, 1 }, k < 2 ? -1 : -1e6);
         result r = run_pass(&f, &c);
-        for (int level = 1; level <= 2; level++) {
-            for (int y = 0; y < 64 >> level; y++) {
-                // The rim is between two texels: one of their blocks sees both.
-                const float *l = r.change + place_of(&r, 0, level, (edge - 1) >> level, y);
-                const float *h = r.change + place_of(&r, 0, level, edge >> level, y);
-                assert_true(fmaxf(l[3], h[3]) >= 1 && fmaxf(l[2], h[2]) >= 1);
-            }
+        for (int i = 0; i < 32 + 16; i++) {
+            const int level = i < 32 ? 1 : 2, y = i % 32;
+            // The rim is between two texels: one of their blocks sees both.
+            const float *l = r.change + place_of(&r, 0, level, (edge - 1) >> level, y);
+            const float *h = r.change + place_of(&r, 0, level, edge >> level, y);
+            assert_true(fmaxf(l[3], h[3]) >= 1 && fmaxf(l[2], h[2]) >= 1);
         }
         result_finish(&r);
         feed_finish(&f);
