@@ -26,9 +26,8 @@ FG_BEGIN
 // Passes "PREFIX.eye_variation", "PREFIX.refine", "PREFIX.valid", "PREFIX.share" where `share` is
 // above 0, "PREFIX.list" and, with AG_CULL_STENCIL, "PREFIX.stencil".
 //
-// Shapes: flags: uint of each texel of levels 1 .. levels - 1; tiles: uvec4 of each 8 x 8 pixels:
-// what
-//         is valid; see passes/multires/texel.glsl.
+// Shapes: flags: uint of each texel of levels 1 .. levels - 1; tiles: uvec4 of each 8 x 8 pixels,
+//         what is valid; both as passes/multires/texel.glsl says.
 //         texels: uint[capacity], the valid texels that show a surface, as multires_pack() makes
 //         them; count: uvec4, x how many those are, yzw 0; then indirect dispatches of as many work
 //         groups as take 64, 256 and 1024 each, 16 bytes apart.
@@ -45,8 +44,8 @@ typedef struct ag_multires_desc {
     const char *prefix;
     int width, height; // pixels
     int coarsest;      // texels along the longer edge of the coarsest level, about: >= 1; 0: 64
-    float depth;       // largest depth derivative that is not refined, >= 0
-    float normal;      // largest extent of a component of the normal that is not refined, [0, 2]
+    float depth;       // depth derivative from which on a texel is refined, >= 0; 0: every texel
+    float normal;      // extent of a component of the normal from which on it is, >= 0
     ag_depth_metric metric;
     ag_cull cull;
     int share;       // [0, 3]; 0: as the paper
