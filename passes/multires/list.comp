@@ -29,25 +29,7 @@ layout(std430, binding = 3) writeonly buffer count_buffer
 layout(location = 0) uniform ivec2 grid;  // tiles
 layout(location = 1) uniform int levels;
 
-shared uint before[group];
-
-// Sum of `value` over the invocations before this one, and over all.
-uint scan(uint value, out uint all)
-{
-    uint me = gl_LocalInvocationIndex;
-    before[me] = value;
-    barrier();
-    for (uint step_ = 1; step_ < group; step_ *= 2) {
-        uint left = me >= step_ ? before[me - step_] : 0;
-        barrier();
-        before[me] += left;
-        barrier();
-    }
-    all = before[group - 1];
-    uint exclusive = before[me] - value;
-    barrier();
-    return exclusive;
-}
+#include "passes/shading/scan.glsl"
 
 uvec4 tile_at(uint index)
 {

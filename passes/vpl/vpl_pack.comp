@@ -6,7 +6,8 @@
 // Out: ag_vpl[], valid ones first; count: x valid, y in all
 #include "passes/include/pass/vpl_shared.h"
 
-layout(local_size_x = 256) in;
+const uint group = 256;
+layout(local_size_x = group) in;
 
 layout(std430, binding = 0) readonly buffer vpl_buffer
 {
@@ -26,25 +27,7 @@ layout(std430, binding = 3) writeonly buffer count_buffer
 };
 layout(location = 0) uniform int total;
 
-shared uint before[256];
-
-// Sum of `value` over the invocations before this one, and over all.
-uint scan(uint value, out uint all)
-{
-    uint me = gl_LocalInvocationIndex;
-    before[me] = value;
-    barrier();
-    for (uint step = 1; step < 256; step *= 2) {
-        uint left = me >= step ? before[me - step] : 0;
-        barrier();
-        before[me] += left;
-        barrier();
-    }
-    all = before[255];
-    uint exclusive = before[me] - value;
-    barrier();
-    return exclusive;
-}
+#include "passes/shading/scan.glsl"
 
 void main()
 {

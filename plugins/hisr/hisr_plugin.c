@@ -2,13 +2,12 @@
 #include "hisr.h"
 
 #include <gi/eye_rows.h>
+#include <gi/light_rows.h>
 #include <gi/visibility.h>
 #include <pass/readback.h>
 
 #include <stdlib.h>
 
-static const char *const clamp_names[] = { "footprint", "disc", "none", "constant", NULL };
-static const char *const solid_angle_names[] = { "exact", "equal", NULL };
 static const char *const bound_names[] = { "patch", "paper", NULL };
 static const double tau_sweep[] = { 0.1, 0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001, (double) NAN };
 
@@ -28,14 +27,7 @@ enum {
 };
 
 static const gi_param params[] = {
-    [RSM_SIZE] = { .name = "rsm_size",
-                   .type = GI_INT,
-                   .unit = "texels",
-                   .min = 1,
-                   .max = 1024,
-                   .def = 256,
-                   .power_of_two = true,
-                   .help = "edge of a reflective shadow map" },
+    GI_RSM_SIZE_PARAM(RSM_SIZE),
     [TAU] = { .name = "tau",
               .type = GI_FLOAT,
               .unit = "1",
@@ -60,26 +52,8 @@ static const gi_param params[] = {
                 .choices = bound_names,
                 .help = "what is held against tau: the error of a node; the paper's contribution" },
     GI_EYE_PARAMS(EYE, 2),
-    [CLAMP] = { .name = "clamp",
-                .type = GI_ENUM,
-                .unit = "1",
-                .def = AG_CLAMP_FOOTPRINT,
-                .choices = clamp_names,
-                .help = "what bounds a near node: its patch, exactly; a disc of its area; nothing; "
-                        "clamp_d2" },
-    [CLAMP_D2] = { .name = "clamp_d2",
-                   .type = GI_FLOAT,
-                   .unit = "m^2",
-                   .min = 1e-12,
-                   .max = 1e12,
-                   .def = 1,
-                   .help = "least squared distance, with clamp=constant" },
-    [SOLID_ANGLE] = { .name = "solid_angle",
-                      .type = GI_ENUM,
-                      .unit = "1",
-                      .def = 0,
-                      .choices = solid_angle_names,
-                      .help = "of a texel: its own, or the paper's equal share (eq. 4)" },
+    GI_CLAMP_PARAMS(CLAMP, CLAMP_D2, "node"),
+    GI_SOLID_ANGLE_PARAM(SOLID_ANGLE),
     GI_VISIBILITY_PARAMS(VISIBILITY, ISM_SIZE, ISM_POINTS),
     { .name = NULL },
 };

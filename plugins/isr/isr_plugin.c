@@ -2,6 +2,7 @@
 #include "cluster.h"
 
 #include <gi/eye_rows.h>
+#include <gi/light_rows.h>
 #include <gi/visibility.h>
 #include <pass/gather.h>
 #include <pass/readback.h>
@@ -10,8 +11,6 @@
 
 enum { SOURCE_CLUSTERS, SOURCE_REGULAR };
 static const char *const source_names[] = { "clusters", "regular", NULL };
-static const char *const clamp_names[] = { "footprint", "disc", "none", "constant", NULL };
-static const char *const solid_angle_names[] = { "exact", "equal", NULL };
 static const double flux_sweep[] = { 1, 0.1, 0.01, 0.001, 0, (double) NAN };
 
 enum {
@@ -34,14 +33,7 @@ enum {
 };
 
 static const gi_param params[] = {
-    [RSM_SIZE] = { .name = "rsm_size",
-                   .type = GI_INT,
-                   .unit = "texels",
-                   .min = 1,
-                   .max = 1024,
-                   .def = 256,
-                   .power_of_two = true,
-                   .help = "edge of a reflective shadow map" },
+    GI_RSM_SIZE_PARAM(RSM_SIZE),
     [SOURCE] = { .name = "source",
                  .type = GI_ENUM,
                  .unit = "1",
@@ -97,26 +89,8 @@ static const gi_param params[] = {
                .def = 256,
                .help = "at most this many, with source=regular" },
     GI_EYE_PARAMS(EYE, 3),
-    [CLAMP] = { .name = "clamp",
-                .type = GI_ENUM,
-                .unit = "1",
-                .def = AG_CLAMP_FOOTPRINT,
-                .choices = clamp_names,
-                .help = "what bounds a near VPL: its patch, exactly; a disc of its area; nothing; "
-                        "clamp_d2" },
-    [CLAMP_D2] = { .name = "clamp_d2",
-                   .type = GI_FLOAT,
-                   .unit = "m^2",
-                   .min = 1e-12,
-                   .max = 1e12,
-                   .def = 1,
-                   .help = "least squared distance, with clamp=constant" },
-    [SOLID_ANGLE] = { .name = "solid_angle",
-                      .type = GI_ENUM,
-                      .unit = "1",
-                      .def = 0,
-                      .choices = solid_angle_names,
-                      .help = "of a texel: its own, or the paper's equal share (eq. 4)" },
+    GI_CLAMP_PARAMS(CLAMP, CLAMP_D2, "VPL"),
+    GI_SOLID_ANGLE_PARAM(SOLID_ANGLE),
     GI_VISIBILITY_PARAMS(VISIBILITY, ISM_SIZE, ISM_POINTS),
     { .name = NULL },
 };

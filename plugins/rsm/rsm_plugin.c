@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gi/light_rows.h>
 #include <gi/plugin.h>
 #include <gi/visibility.h>
 #include <pass/gather.h>
@@ -8,8 +9,6 @@
 #include <stdlib.h>
 
 static const char *const pattern_names[] = { "all", "regular", "stratified", NULL };
-static const char *const clamp_names[] = { "footprint", "disc", "none", "constant", NULL };
-static const char *const solid_angle_names[] = { "exact", "equal", NULL };
 static const double vpl_sweep[] = { 16, 64, 256, 1024, 4096, 16384, (double) NAN };
 
 enum {
@@ -27,14 +26,7 @@ enum {
 };
 
 static const gi_param params[] = {
-    [RSM_SIZE] = { .name = "rsm_size",
-                   .type = GI_INT,
-                   .unit = "texels",
-                   .min = 1,
-                   .max = 1024,
-                   .def = 256,
-                   .power_of_two = true,
-                   .help = "edge of a reflective shadow map" },
+    GI_RSM_SIZE_PARAM(RSM_SIZE),
     [PATTERN] = { .name = "pattern",
                   .type = GI_ENUM,
                   .unit = "1",
@@ -52,26 +44,8 @@ static const gi_param params[] = {
                .help =
                    "at most this many, unless all; split over lights by their power, a power of "
                    "four for each map; one more for each map with a share below one" },
-    [CLAMP] = { .name = "clamp",
-                .type = GI_ENUM,
-                .unit = "1",
-                .def = AG_CLAMP_FOOTPRINT,
-                .choices = clamp_names,
-                .help = "what bounds a near VPL: its patch, exactly; a disc of its area; nothing; "
-                        "clamp_d2" },
-    [CLAMP_D2] = { .name = "clamp_d2",
-                   .type = GI_FLOAT,
-                   .unit = "m^2",
-                   .min = 1e-12,
-                   .max = 1e12,
-                   .def = 1,
-                   .help = "least squared distance, with clamp=constant" },
-    [SOLID_ANGLE] = { .name = "solid_angle",
-                      .type = GI_ENUM,
-                      .unit = "1",
-                      .def = 0,
-                      .choices = solid_angle_names,
-                      .help = "of a texel: its own, or the paper's equal share (eq. 4)" },
+    GI_CLAMP_PARAMS(CLAMP, CLAMP_D2, "VPL"),
+    GI_SOLID_ANGLE_PARAM(SOLID_ANGLE),
     [SEED] = { .name = "seed",
                .type = GI_INT,
                .unit = "1",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gi/eye_rows.h>
+#include <gi/light_rows.h>
 #include <pass/readback.h>
 #include <pass/vpl.h>
 
@@ -7,7 +8,6 @@
 
 #include <stdlib.h>
 
-static const char *const solid_angle_names[] = { "exact", "equal", NULL };
 static const double vpl_sweep[] = { 16, 64, 256, 1024, (double) NAN };
 
 enum {
@@ -20,14 +20,7 @@ enum {
 };
 
 static const gi_param params[] = {
-    [RSM_SIZE] = { .name = "rsm_size",
-                   .type = GI_INT,
-                   .unit = "texels",
-                   .min = 1,
-                   .max = 1024,
-                   .def = 256,
-                   .power_of_two = true,
-                   .help = "edge of a reflective shadow map" },
+    GI_RSM_SIZE_PARAM(RSM_SIZE),
     [VPLS] = { .name = "vpls",
                .type = GI_INT,
                .unit = "1",
@@ -46,12 +39,7 @@ static const gi_param params[] = {
                 .def = 0,
                 .help = "least irradiance that a VPL is splatted for, over the mean radiosity of "
                         "what the lights light" },
-    [SOLID_ANGLE] = { .name = "solid_angle",
-                      .type = GI_ENUM,
-                      .unit = "1",
-                      .def = 0,
-                      .choices = solid_angle_names,
-                      .help = "of a texel: its own, or the paper's equal share (eq. 4)" },
+    GI_SOLID_ANGLE_PARAM(SOLID_ANGLE),
     { .name = NULL },
 };
 
