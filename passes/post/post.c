@@ -80,13 +80,12 @@ static fg_status run_tone(const fg_run *run, void *user)
     return FG_OK;
 }
 
-void ag_tone_declare(ag_tone_pass *pass, fg_graph *g, fg_res radiance)
+void ag_tone_declare(ag_tone_pass *pass, fg_graph *g, const char *name, const char *texture)
 {
-    pass->radiance = radiance;
-    pass->out = fg_texture(g, "frame.display", &(fg_tex_desc){ .format = FG_RGBA16F });
+    pass->out = fg_texture(g, texture, &(fg_tex_desc){ .format = FG_RGBA16F });
     const fg_pass_desc tone = {
-        .name = "frame.tone",
-        .reads = { { radiance } },
+        .name = name,
+        .reads = { { pass->radiance } },
         .writes = { { pass->out, FG_USE_COLOR, FG_LOAD_DISCARD } },
         .run = run_tone,
         .user = pass,

@@ -242,7 +242,8 @@ static void declare_output(renderer *r, const ag_scene_res *scene, const gi_outp
     ag_compose_declare(&r->compose, r->graph, "frame.compose", "frame.radiance");
     ag_compose_declare(&r->indirect, r->graph, "frame.indirect", "frame.indirect_radiance");
     r->tone.exposure = r->desc.exposure > 0 ? r->desc.exposure : 1;
-    ag_tone_declare(&r->tone, r->graph, r->compose.out);
+    r->tone.radiance = r->compose.out;
+    ag_tone_declare(&r->tone, r->graph, "frame.tone", "frame.display");
 }
 
 // For messages: "direct", "isr.level".

@@ -17,15 +17,15 @@ typedef struct ag_compose_pass {
 FG_API void ag_compose_declare(ag_compose_pass *pass, fg_graph *g, const char *name,
                                const char *texture);
 
-// Exposure and filmic curve: pass "frame.tone", texture "frame.display" RGBA16F, linear display
-// values in [0, 1].
+// Exposure and filmic curve: RGBA16F, linear display values in [0, 1].
 typedef struct ag_tone_pass {
     fg_res radiance;
     float exposure; // factor on radiance, > 0; may change between frames
     fg_res out;
 } ag_tone_pass;
 
-FG_API void ag_tone_declare(ag_tone_pass *pass, fg_graph *g, fg_res radiance);
+// Fill radiance and exposure before. `name` and `texture`, e.g. "frame.tone" and "frame.display".
+FG_API void ag_tone_declare(ag_tone_pass *pass, fg_graph *g, const char *name, const char *texture);
 
 FG_END
 
