@@ -173,6 +173,15 @@ void ag_mat_from_float(const float m[16], double out[16])
         out[i] = static_cast<double>(m[i]);
 }
 
+void ag_frame_about(const double n[3], double t[3], double b[3])
+{
+    const double s = n[2] < 0 ? -1 : 1, a = -1 / (s + n[2]), c = n[0] * n[1] * a;
+    const glm::dvec3 first(1 + s * n[0] * n[0] * a, s * c, -s * n[0]);
+    const glm::dvec3 second(c, s + n[1] * n[1] * a, -n[1]);
+    store(first, t);
+    store(second, b);
+}
+
 void ag_quat_slerp(const double a[4], const double b[4], double t, double out[4])
 {
     const glm::dquat q = glm::normalize(

@@ -56,6 +56,11 @@ FG_API void ag_mat_orthographic(double half_width, double half_height, double zn
 FG_API void ag_mat_to_float(const double m[16], float out[16]);
 FG_API void ag_mat_from_float(const float m[16], double out[16]);
 
+// Two vectors that make a right-handed orthonormal frame `t`, `b`, `n` with unit `n`, as
+// vpl_frame() of pass/vpl_shared.h does.
+// Source: Duff et al. Building an Orthonormal Basis, Revisited. JCGT 6(1), 2017.
+FG_API void ag_frame_about(const double n[3], double t[3], double b[3]);
+
 // Along the shorter arc. Both unit; so is the result.
 FG_API void ag_quat_slerp(const double a[4], const double b[4], double t, double out[4]);
 

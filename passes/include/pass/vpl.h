@@ -61,6 +61,19 @@ FG_API int64_t ag_vpl_split(const double *power, int faces, int64_t budget, int 
 // capacity, of vpls: valid ones at most; and, when it runs, total. Fills in vpls and count.
 FG_API void ag_vpl_pack_declare(ag_vpl_pass *pass, fg_graph *g, const char *prefix);
 
+// A VPL that the host makes, and the parallelogram that it stands for: its position is the middle.
+typedef struct ag_vpl_patch {
+    float position[3]; // render space
+    float normal[3];   // unit, on the lit side
+    float flux[3];     // reflected, W, never negative
+    float area;        // m^2; 0 or less: no VPL
+    float edges[2][3]; // m, in the plane of the normal
+} ag_vpl_patch;
+
+// As ag_vpl_declare()'s shaders would have written it; for buffers that the host fills.
+struct ag_vpl; // pass/vpl_shared.h
+FG_API void ag_vpl_from_host(const ag_vpl_patch *patch, struct ag_vpl *out);
+
 // VPLs to look at: pass "PREFIX.vpls_layer", left out while nobody reads what it makes.
 //
 // Shapes: out RGBA16F of the frame's size: direct light through the tone curve, and a dot at each

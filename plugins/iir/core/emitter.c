@@ -2,6 +2,7 @@
 #include "emitter.h"
 
 #include <math.h>
+#include <pass/math.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
@@ -71,17 +72,13 @@ static double angle_of(const iir_emitter *e, double radius, double *rest)
 
 // ---- what a light is --------------------------------------------------------------------------
 
-// Duff et al. Building an Orthonormal Basis, Revisited. JCGT 6(1), 2017.
-static void frame_about(const float direction[3], double axes[3][3])
+static void axes_along(const float direction[3], double axes[3][3])
 {
     const double d[3] = { (double) direction[0], (double) direction[1], (double) direction[2] };
     const double length = sqrt(dot(d, d));
-    double *n = axes[2];
     for (int k = 0; k < 3; k++)
-        n[k] = d[k] / length;
-    const double s = n[2] < 0 ? -1 : 1, a = -1 / (s + n[2]), c = n[0] * n[1] * a;
-    memcpy(axes[0], (double[3]){ 1 + s * n[0] * n[0] * a, s * c, -s * n[0] }, sizeof axes[0]);
-    memcpy(axes[1], (double[3]){ c, s + n[1] * n[1] * a, -n[1] }, sizeof axes[1]);
+        axes[2][k] = d[k] / length;
+    ag_frame_about(axes[2], axes[0], axes[1]);
 }
 
 // The disc across the scene's bounding sphere, far enough before it that no surface touches it.
@@ -119,7 +116,7 @@ bool iir_emitter_from_light(const ag_light *light, const double box_min[3], cons
     out->cosine = light->kind == AG_LIGHT_SPOT && light->cosine;
     memcpy(out->position, light->position, sizeof out->position);
     if (light->kind != AG_LIGHT_POINT)
-        frame_about(light->direction, out->axes);
+        axes_along(light->direction, out->axes);
     if (light->kind == AG_LIGHT_SPOT) {
         const double inner = (double) light->cos_inner, outer = (double) light->cos_outer;
         out->ramp = out->cosine ? 1 : fmax(1e-3, inner - outer);
