@@ -14,7 +14,7 @@
 #include "passes/include/pass/ism_shared.h"
 #include "passes/include/pass/view_shared.h"
 #include "passes/include/pass/vpl_shared.h"
-#include "passes/ism/paraboloid.glsl"
+#include "passes/shading/paraboloid.glsl"
 
 const int group = 256, team = 16;
 const int max_size = 64;
