@@ -193,3 +193,9 @@ fg_status metrics_error_map(const fg_log *log, const image *a, const image *b, d
     }
     return FG_OK;
 }
+
+double metrics_without_noise(const metrics *m, double rms, double noise)
+{
+    const double square = m->rmse * m->rmse - noise * noise, under = rms * rms - noise * noise;
+    return square > 0 && under > 0 ? sqrt(square / under) : (double) NAN;
+}

@@ -34,6 +34,11 @@ FG_NODISCARD fg_status metrics_compare(const fg_log *log, const image *a, const 
 FG_NODISCARD fg_status metrics_error_map(const fg_log *log, const image *a, const image *b,
                                          double scale, image *out);
 
+// Relative RMSE without the noise of a reference of RMS `rms`: as it is independent of result and
+// truth, the noise's square is in the squares of both and is taken out of both. NAN where that
+// leaves nothing.
+double metrics_without_noise(const metrics *m, double rms, double noise);
+
 FG_END
 
 #endif // METRICS_H

@@ -259,3 +259,50 @@ fg_status reference_render(const reference_desc *desc, image *out)
         image_finish(out);
     return status;
 }
+
+// ---- twice --------------------------------------------------------------------------
+
+// Of one of the two: where the progress of both is.
+typedef struct half {
+    const reference_desc *desc;
+    int number;
+} half;
+
+static void half_progress(void *user, double fraction)
+{
+    const half *h = user;
+    h->desc->progress(h->desc->progress_user, (h->number + fraction) / 2);
+}
+
+static fg_status render_half(const reference_desc *desc, int number, image *out)
+{
+    half h = { desc, number };
+    reference_desc d = *desc;
+    d.spp = (int) (((int64_t) desc->spp + 1) / 2);
+    d.seed = 2 * desc->seed + (uint64_t) number;
+    d.progress = desc->progress ? half_progress : NULL;
+    d.progress_user = &h;
+    return reference_render(&d, out);
+}
+
+fg_status reference_render_halves(const reference_desc *desc, image *out, double *noise)
+{
+    image other = { 0 };
+    double sum = 0;
+    *noise = 0;
+    fg_status status = render_half(desc, 0, out);
+    if (status == FG_OK)
+        status = render_half(desc, 1, &other);
+    const size_t count = 3 * (size_t) out->width * (size_t) out->height;
+    for (size_t i = 0; status == FG_OK && i < count; ++i) {
+        const double diff = (double) out->rgb[i] - (double) other.rgb[i];
+        sum += diff * diff;
+        out->rgb[i] = 0.5f * (out->rgb[i] + other.rgb[i]);
+    }
+    if (status == FG_OK)
+        *noise = 0.5 * sqrt(sum / (double) count);
+    else
+        image_finish(out);
+    image_finish(&other);
+    return status;
+}

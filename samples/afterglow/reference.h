@@ -49,6 +49,12 @@ typedef struct reference_desc {
 // Errors: FG_ERR_INVALID, FG_ERR_MEMORY.
 FG_NODISCARD fg_status reference_render(const reference_desc *desc, image *out);
 
+// The mean of two pictures of (spp + 1) / 2 samples with the seeds 2 seed and 2 seed + 1, and the
+// RMS of the noise that is left in it: half that of their difference, since the two are
+// independent.
+FG_NODISCARD fg_status reference_render_halves(const reference_desc *desc, image *out,
+                                               double *noise);
+
 FG_END
 
 #endif // REFERENCE_H

@@ -23,13 +23,11 @@ static void show_progress(void *user, double fraction)
     cli_progress(user, fraction);
 }
 
-// One truth with one seed.
-static fg_status trace(host *h, const truths_desc *d, int truth, int part, image *out)
+static fg_status trace(host *h, const truths_desc *d, int truth, image *out, double *noise)
 {
     char what[96];
     const ag_camera camera = host_camera(h);
-    snprintf(what, sizeof what, "%s: %s, half %d of 2", h->scene_name, truth_names[truth],
-             part + 1);
+    snprintf(what, sizeof what, "%s: %s", h->scene_name, truth_names[truth]);
     const reference_desc desc = {
         .log = &h->c->log,
         .scene = h->scene,
@@ -37,35 +35,15 @@ static fg_status trace(host *h, const truths_desc *d, int truth, int part, image
         .width = d->width,
         .height = d->height,
         .bounces = 1,
-        .spp = (d->spp[truth] + 1) / 2,
-        .seed = 2 * h->o->seed + (uint64_t) part,
+        .spp = d->spp[truth],
+        .seed = h->o->seed,
         .layer = REFERENCE_INDIRECT,
         .unshadowed_bounce = truth == 1,
         .progress = show_progress,
         .progress_user = what,
     };
-    const fg_status status = reference_render(&desc, out);
+    const fg_status status = reference_render_halves(&desc, out, noise);
     cli_progress(what, 1);
-    return status;
-}
-
-// Two halves of different seeds: their mean is the truth and half the RMS of their difference
-// is what noise is left in it, since the two are independent.
-static fg_status two_halves(host *h, const truths_desc *d, int truth, image *out, double *noise)
-{
-    image other = { 0 };
-    double sum = 0;
-    fg_status status = trace(h, d, truth, 0, out);
-    if (status == FG_OK)
-        status = trace(h, d, truth, 1, &other);
-    for (size_t i = 0; status == FG_OK && i < value_count(out); ++i) {
-        const double diff = (double) out->rgb[i] - (double) other.rgb[i];
-        sum += diff * diff;
-        out->rgb[i] = 0.5f * (out->rgb[i] + other.rgb[i]);
-    }
-    if (status == FG_OK)
-        *noise = 0.5 * sqrt(sum / (double) value_count(out));
-    image_finish(&other);
     return status;
 }
 
@@ -141,7 +119,7 @@ int truths_render(host *h, const truths_desc *desc, truths *out)
     cJSON *list = cJSON_AddArrayToObject(desc->scene_json, "references");
     *out = (truths){ 0 };
     for (int i = 0; i < REPORT_TRUTHS && status == FG_OK; ++i) {
-        status = two_halves(h, desc, i, &out->picture[i], &out->noise[i]);
+        status = trace(h, desc, i, &out->picture[i], &out->noise[i]);
         if (status != FG_OK)
             break;
         if (i == 0)
@@ -156,13 +134,9 @@ int truths_render(host *h, const truths_desc *desc, truths *out)
     return cli_status(h->c, status);
 }
 
-// The noise of the truth is independent of the result and of the truth: its square is in the
-// squares of both the error and the truth's RMS, and is taken out of both.
 cJSON *truth_error(const truths *t, int truth, const metrics *e)
 {
-    const double noise = t->noise[truth] * t->noise[truth];
-    const double square = e->rmse * e->rmse - noise, rms = t->rms[truth] * t->rms[truth] - noise;
-    const double corrected = square > 0 && rms > 0 ? sqrt(square / rms) : (double) NAN;
+    const double corrected = metrics_without_noise(e, t->rms[truth], t->noise[truth]);
     cJSON *json = record_error(truth_names[truth], e);
     cJSON_AddNumberToObject(json, "noise", t->noise[truth]);
     cJSON_AddItemToObject(json, "rmse_rms_corrected",

@@ -467,6 +467,37 @@ static void progress_goes_up_to_one(void **state)
     image_finish(&img);
 }
 
+// What is told of the noise is what is off from many samples of another seed. Of 960 pixels in
+// three channels, which are alike: known to 1 / sqrt(2 * 960) of it, 2 %, were it normal; it has
+// longer tails.
+static void two_halves_know_their_noise(void **state)
+{
+    (void) state;
+    image img, many = render_room((reference_desc){ .spp = 2048, .seed = 7 });
+    double noise, last = 0;
+    ag_scene *scene = lit_room(0, 1);
+    const ag_camera camera = room_camera(0, 1);
+    const reference_desc desc = {
+        .log = &test_log,
+        .scene = scene,
+        .camera = &camera,
+        .width = many.width,
+        .height = many.height,
+        .bounces = 2,
+        .spp = 32,
+        .layer = REFERENCE_INDIRECT,
+        .progress = note_progress,
+        .progress_user = &last,
+    };
+    assert_int_equal(reference_render_halves(&desc, &img, &noise), FG_OK);
+    assert_true(last == 1);
+    test_near(noise, distance(&img, &many), 0.2 * noise);
+    test_near(test_mean(&img), test_mean(&many), 4 * noise / sqrt(960));
+    image_finish(&img);
+    image_finish(&many);
+    ag_scene_destroy(scene);
+}
+
 static void mistakes_are_refused_in_words(void **state)
 {
     (void) state;
@@ -532,6 +563,7 @@ int main(void)
         cmocka_unit_test(the_near_plane_cuts),
         cmocka_unit_test(threads_do_not_change_a_bit),
         cmocka_unit_test(noise_falls_as_the_root_of_the_samples),
+        cmocka_unit_test(two_halves_know_their_noise),
         cmocka_unit_test(far_from_the_origin_is_like_near),
         cmocka_unit_test(scale_does_not_matter),
         cmocka_unit_test(lights_in_bad_places_stay_finite),

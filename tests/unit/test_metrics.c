@@ -150,6 +150,17 @@ static void extreme_values_do_not_overflow(void **state)
     image_finish(&b);
 }
 
+// 5^2 - 3^2 = 4^2, over and under the line.
+static void noise_is_taken_out_of_error_and_reference(void **state)
+{
+    (void) state;
+    const metrics m = { .rmse = 5 };
+    near_by(metrics_without_noise(&m, 5, 3), 1, tiny);
+    near_by(metrics_without_noise(&m, 10, 0), 0.5, tiny);
+    assert_true(isnan(metrics_without_noise(&m, 10, 5)));
+    assert_true(isnan(metrics_without_noise(&m, 3, 3)));
+}
+
 static void different_sizes_are_refused(void **state)
 {
     (void) state;
@@ -193,6 +204,7 @@ int main(void)
         cmocka_unit_test(a_black_reference_gives_no_nan),
         cmocka_unit_test(p99_and_the_trimmed_mean_are_order_statistics),
         cmocka_unit_test(extreme_values_do_not_overflow),
+        cmocka_unit_test(noise_is_taken_out_of_error_and_reference),
         cmocka_unit_test(different_sizes_are_refused),
         cmocka_unit_test(the_error_map_shows_sign_size_and_holes),
     };
