@@ -41,9 +41,9 @@ static fg_status run_raster(const fg_run *run, void *user)
 }
 
 // Noise, so that nothing is the same in all texels.
-static fg_status make_source(copy *c, int size)
+static fg_status make_source(copy *c, const int size[2])
 {
-    const size_t count = 4 * (size_t) size * (size_t) size;
+    const size_t count = 4 * (size_t) size[0] * (size_t) size[1];
     float *values = malloc(count * sizeof *values);
     uint32_t state = 1;
     if (!values)
@@ -53,15 +53,15 @@ static fg_status make_source(copy *c, int size)
         values[i] = (float) (state >> 8) * 0x1p-24f;
     }
     glCreateTextures(GL_TEXTURE_2D, 1, &c->source);
-    glTextureStorage2D(c->source, 1, GL_RGBA16F, size, size);
-    glTextureSubImage2D(c->source, 0, 0, 0, size, size, GL_RGBA, GL_FLOAT, values);
+    glTextureStorage2D(c->source, 1, GL_RGBA16F, size[0], size[1]);
+    glTextureSubImage2D(c->source, 0, 0, 0, size[0], size[1], GL_RGBA, GL_FLOAT, values);
     free(values);
     return FG_OK;
 }
 
 fg_status copy_open(const bench *b, copy *c)
 {
-    const fg_tex_desc source = { .format = FG_RGBA16F, .width = b->size, .height = b->size };
+    const fg_tex_desc source = { .format = FG_RGBA16F, .width = b->size[0], .height = b->size[1] };
     const fg_tex_desc frame = { .format = FG_RGBA16F };
     const fg_status status = make_source(c, b->size);
     if (status != FG_OK)
@@ -69,7 +69,7 @@ fg_status copy_open(const bench *b, copy *c)
     c->graph = fg_graph_create(&(fg_graph_desc){ .device = b->device, .log = &b->log });
     if (!c->graph)
         return FG_ERR_MEMORY;
-    fg_graph_begin(c->graph, &(fg_frame_desc){ .width = b->size, .height = b->size });
+    fg_graph_begin(c->graph, &(fg_frame_desc){ .width = b->size[0], .height = b->size[1] });
     c->from = fg_import_texture(c->graph, "copy.source", &source, c->source);
     c->to[0] = fg_texture(c->graph, "copy.by_compute", &frame);
     c->to[1] = fg_texture(c->graph, "copy.by_raster", &frame);

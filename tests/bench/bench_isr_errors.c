@@ -3,8 +3,6 @@
 // gather of all texels of the map at every pixel; and what the latter saves.
 #include "bench_isr.h"
 
-#include "metrics.h"
-
 // ---- isr -------------------------------------------------------------------------------------
 
 typedef struct variant {
@@ -32,13 +30,13 @@ static fg_status run_variant(const bench *b, const variant *v, const image *refe
     side isr = { .plugin = "isr", .values = v->values, .picture = true };
     image picture = { 0 };
     metrics m;
-    fg_status status = side_open(b, &isr, b->scene, b->size);
+    fg_status status = side_open(b, &isr, b->size);
     if (status == FG_OK)
         status = take_picture(b, &isr, &picture);
     if (status == FG_OK)
         status = metrics_compare(&b->log, &picture, reference, &m);
     if (status == FG_OK) {
-        const double pixels = (double) b->size * b->size;
+        const double pixels = (double) b->size[0] * b->size[1];
         bench_print(b, v->rms, b->size, 100 * m.rmse_rms, "%");
         bench_print(b, v->max, b->size, 100 * m.rmse_max, "%");
         if (v->lit)
@@ -60,7 +58,7 @@ fg_status bench_errors(const bench *b)
     image reference = { 0 };
     if (!wants_variant(b, &variants[0]) && !wants_variant(b, &variants[1]))
         return FG_OK;
-    fg_status status = side_open(b, &rsm, b->scene, b->size);
+    fg_status status = side_open(b, &rsm, b->size);
     if (status == FG_OK)
         status = side_frame(b, &rsm, 0);
     if (status == FG_OK)
@@ -87,7 +85,7 @@ static bool step_is_not_map(const char *step)
 // the same program.
 static fg_status run_full_gather(const bench *b, side *rsm, image *out)
 {
-    fg_status status = side_open(b, rsm, b->scene, b->size);
+    fg_status status = side_open(b, rsm, b->size);
     if (status == FG_OK)
         status = side_frame(b, rsm, 0);
     side_forget(rsm);
@@ -118,7 +116,7 @@ fg_status bench_hisr(const bench *b)
     metrics m;
     if (!bench_wants_any(b, hisr_figures))
         return FG_OK;
-    fg_status status = side_open(b, &hisr, b->scene, b->size);
+    fg_status status = side_open(b, &hisr, b->size);
     if (status == FG_OK)
         status = run_hisr(b, &hisr, &picture);
     if (status == FG_OK)

@@ -11,7 +11,6 @@
 // x.
 #include "bench_isr.h"
 
-#include <math.h>
 #include <string.h>
 
 // The full gather of the path is long: at most so many pixels along an edge.
@@ -28,31 +27,9 @@ static const char over_4096[] = "hisr.flicker_over_rsm_4096";
 typedef struct path {
     side sides[SIDES];
     bool there[SIDES];
-    image now[SIDES], before[SIDES];
-    double excess[SIDES], change[SIDES]; // sums over the frames of means over the pixels
-    ag_scene scene;                      // shallow copy, where the light is moved here
-    ag_light light;
-    double start;
+    moving_picture pictures[SIDES];
+    motion motion;
 } path;
-
-static double step_of(const bench *b)
-{
-    return !strcmp(b->scene_name, "cornell") ? 0.005 : 0.026; // m a frame
-}
-
-static bool moves_itself(const bench *b)
-{
-    return (b->scene->features & AG_FEATURE_MOVING_LIGHT) != 0;
-}
-
-static double pose(const bench *b, path *p, int frame)
-{
-    if (moves_itself(b))
-        return frame / 30.0;
-    p->light.position[0] = p->start + step_of(b) * (frame - 0.5 * (FRAMES - 1));
-    p->scene.light_revision++;
-    return 0;
-}
 
 static bool wants_side(const bench *b, int k)
 {
@@ -62,7 +39,7 @@ static bool wants_side(const bench *b, int k)
            ((k == HISR || k == RSM_4096) && bench_wants(b, over_4096));
 }
 
-static fg_status open_all(const bench *b, path *p, int size)
+static fg_status open_all(const bench *b, path *p, const int size[2])
 {
     static const char *const settings[SIDES][2] = {
         [FULL] = { "rsm", "pattern=all rsm_size=256" },
@@ -76,7 +53,7 @@ static fg_status open_all(const bench *b, path *p, int size)
         p->sides[k] = (side){ .plugin = settings[k][0], .values = settings[k][1], .picture = true };
         if (!wants_side(b, k))
             continue;
-        status = side_open(b, &p->sides[k], moves_itself(b) ? b->scene : &p->scene, size);
+        status = side_open(b, &p->sides[k], size);
         p->there[k] = status == FG_OK;
         if (status == FG_ERR_UNSUPPORTED)
             status = FG_OK;
@@ -84,68 +61,51 @@ static fg_status open_all(const bench *b, path *p, int size)
     return status;
 }
 
-static void add_changes(path *p, int k)
-{
-    const size_t count = 3 * (size_t) p->now[k].width * (size_t) p->now[k].height;
-    double excess = 0, change = 0;
-    for (size_t i = 0; i < count; i++) {
-        const double own = (double) p->now[k].rgb[i] - (double) p->before[k].rgb[i];
-        const double full = (double) p->now[FULL].rgb[i] - (double) p->before[FULL].rgb[i];
-        excess += fabs(own - full);
-        change += fabs(own);
-    }
-    p->excess[k] += excess / (double) count;
-    p->change[k] += change / (double) count;
-}
-
 static fg_status run_frame(const bench *b, path *p, int frame)
 {
-    const double time = pose(b, p, frame);
-    fg_status status = FG_OK;
+    fg_status status = motion_line(&p->motion, frame, frame - 0.5 * (FRAMES - 1));
     for (int k = 0; k < SIDES && status == FG_OK; k++) {
+        image picture = { 0 };
         if (!p->there[k])
             continue;
-        image_finish(&p->before[k]);
-        p->before[k] = p->now[k];
-        p->now[k] = (image){ 0 };
-        status = side_frame(b, &p->sides[k], time);
+        status = side_frame(b, &p->sides[k], b->scene->time);
         if (status == FG_OK)
-            status = side_picture(&p->sides[k], &p->now[k]);
+            status = side_picture(&p->sides[k], &picture);
+        moving_push(&p->pictures[k], &picture);
     }
     for (int k = 0; k < SIDES && frame && status == FG_OK; k++)
         if (p->there[k])
-            add_changes(p, k);
+            moving_add(&p->pictures[k], &p->pictures[FULL]);
     return status;
 }
 
-static void print_all(const bench *b, const path *p, int size)
+static void print_all(const bench *b, const path *p, const int size[2])
 {
-    const double base = p->excess[RSM_256], moved = p->change[FULL];
+    const moving_picture *m = p->pictures;
+    const double base = m[RSM_256].excess, moved = m[FULL].change;
     for (int k = 0; k < SIDES; k++) {
         if (b->verbose && p->there[k])
             fprintf(stderr, "%s: %s %s: change %.4g, of the full gather %.4g; in excess %.4g\n",
                     b->scene_name, p->sides[k].plugin, p->sides[k].values,
-                    p->change[k] / (FRAMES - 1), moved / (FRAMES - 1), p->excess[k] / (FRAMES - 1));
+                    m[k].change / (FRAMES - 1), moved / (FRAMES - 1), m[k].excess / (FRAMES - 1));
         if (!p->there[k] || !figures[k][0])
             continue;
-        bench_print(b, figures[k][0], size, p->excess[k] / base, "x");
-        bench_print(b, figures[k][1], size, (p->change[k] - moved) / (p->change[RSM_256] - moved),
+        bench_print(b, figures[k][0], size, m[k].excess / base, "x");
+        bench_print(b, figures[k][1], size, (m[k].change - moved) / (m[RSM_256].change - moved),
                     "x");
     }
     if (p->there[HISR] && p->there[RSM_4096])
-        bench_print(b, over_4096, size, p->excess[HISR] / p->excess[RSM_4096], "x");
+        bench_print(b, over_4096, size, m[HISR].excess / m[RSM_4096].excess, "x");
 }
 
 fg_status bench_flicker(const bench *b)
 {
     static path p;
-    const int size = b->size < EDGE ? b->size : EDGE;
+    int size[2];
     if (!wants_side(b, RSM_4096) && !wants_side(b, ISR) && !wants_side(b, HISR))
         return FG_OK;
-    p = (path){ .scene = *b->scene, .light = b->scene->lights[0] };
-    p.scene.lights = &p.light;
-    p.scene.light_count = 1;
-    p.start = p.light.position[0];
+    bench_fit(b, EDGE, size);
+    p = (path){ .motion = motion_begin(b) };
     fg_status status = open_all(b, &p, size);
     for (int i = 0; i < FRAMES && status == FG_OK; i++)
         status = run_frame(b, &p, i);
@@ -153,9 +113,8 @@ fg_status bench_flicker(const bench *b)
         print_all(b, &p, size);
     for (int k = 0; k < SIDES; k++) {
         side_close(&p.sides[k]);
-        image_finish(&p.now[k]);
-        image_finish(&p.before[k]);
+        moving_finish(&p.pictures[k]);
     }
-    ag_scene_set_time(b->scene, 0);
-    return status;
+    const fg_status ended = motion_end(&p.motion);
+    return status == FG_OK ? ended : status;
 }

@@ -55,7 +55,7 @@ static ag_multires_desc default_eye(const bench *b)
         gi_params_default(isr, values);
     for (int i = 0; values && i + GI_EYE_ROWS <= count; i++)
         if (!strcmp(isr->params[i].name, "depth"))
-            desc = gi_eye_desc("eye", values + i, b->size, b->size);
+            desc = gi_eye_desc("eye", values + i, b->size[0], b->size[1]);
     free(values);
     return desc;
 }
@@ -73,7 +73,7 @@ static fg_status declare(const bench *b, pairs *p)
         return FG_ERR_UNSUPPORTED;
     if (!g)
         return FG_ERR_MEMORY;
-    fg_graph_begin(g, &(fg_frame_desc){ b->size, b->size, ag_gpu_scene_features(p->gpu),
+    fg_graph_begin(g, &(fg_frame_desc){ b->size[0], b->size[1], ag_gpu_scene_features(p->gpu),
                                         ag_feature_names, AG_FEATURE_COUNT });
     const ag_scene_res res = ag_gpu_scene_import(p->gpu, g);
     ag_gbuffer_declare(&p->gbuffer, g, p->gpu, &res);
@@ -96,11 +96,11 @@ static fg_status declare(const bench *b, pairs *p)
 
 static fg_status create(const bench *b, pairs *p)
 {
-    const ag_camera *camera = b->has_camera ? &b->camera : &b->scene->cameras[0];
+    const ag_camera *camera = &b->scene->cameras[b->camera];
     fg_status status = ag_gpu_scene_create(
         &(ag_gpu_scene_desc){ .log = &b->log, .device = b->device, .scene = b->scene }, &p->gpu);
     if (status == FG_OK)
-        status = ag_view_from_camera(&b->log, camera, b->size, b->size, &p->view);
+        status = ag_view_from_camera(&b->log, camera, b->size[0], b->size[1], &p->view);
     if (status == FG_OK)
         status = ag_gpu_scene_update(p->gpu, &p->view);
     if (status == FG_OK)
@@ -129,7 +129,7 @@ static void read_buffer(const pairs *p, fg_res res, size_t size, void *out)
 static fg_status read_back(const bench *b, pairs *p)
 {
     uint32_t count[4];
-    const size_t pixels = 4 * (size_t) b->size * (size_t) b->size;
+    const size_t pixels = 4 * (size_t) b->size[0] * (size_t) b->size[1];
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     read_buffer(p, p->eye.count, sizeof count, count);
     p->texels = count[0];
@@ -162,7 +162,7 @@ static void add_receiver(const bench *b, pairs *p, int i)
     float position[3] = { 0 }, normal[3] = { 0 }, length = 0;
     for (int k = 0; k < (level ? 4 : 1); k++) {
         const int px = level ? x + half - 1 + (k & 1) : x, py = level ? y + half - 1 + (k >> 1) : y;
-        const size_t at = 4 * ((size_t) py * (size_t) b->size + (size_t) px);
+        const size_t at = 4 * ((size_t) py * (size_t) b->size[0] + (size_t) px);
         for (int c = 0; c < 3; c++) {
             position[c] += p->position[at + (size_t) c] * (level ? 0.25f : 1);
             normal[c] += p->normal[at + (size_t) c] * (level ? 0.25f : 1);

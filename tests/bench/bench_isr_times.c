@@ -80,7 +80,7 @@ static fg_status open_all(const bench *b, times *t)
         t->sides[k] = (side){ .plugin = settings[k][0], .values = settings[k][1] };
         if (!is_needed(b, k))
             continue;
-        status = side_open(b, &t->sides[k], b->scene, b->size);
+        status = side_open(b, &t->sides[k], b->size);
         t->there[k] = status == FG_OK;
         if (status == FG_ERR_UNSUPPORTED)
             status = FG_OK;
@@ -116,7 +116,7 @@ static void print_ratios(const bench *b, times *t)
 {
     const side *isr = &t->sides[ISR], *rsm = &t->sides[RSM], *splat = &t->sides[SPLAT];
     const double gather = side_sum(isr, step_is_gather);
-    const double pixels = (double) b->size * b->size;
+    const double pixels = (double) b->size[0] * b->size[1];
     const double texels = side_counter(&t->sides[ISR], "samples");
     if (t->there[SPLAT]) {
         bench_print(b, over_gather, b->size, side_sum(splat, step_is_splat) / gather, "x");

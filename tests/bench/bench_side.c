@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Techniques whose frames run in turn, and their times.
-#include "bench_isr.h"
+#include "bench.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -47,11 +47,9 @@ double samples_typical(const samples *s)
 
 // ---- a side ----------------------------------------------------------------------------------
 
-// "a=1 b=2" over the defaults.
-static fg_status parse_values(const bench *b, side *s, const char *values)
+static fg_status parse_words(const bench *b, side *s, const char *values)
 {
     char word[96];
-    gi_params_default(s->table, s->set);
     for (const char *at = values; at && *at;) {
         const size_t length = strcspn(at, " ");
         snprintf(word, sizeof word, "%.*s", (int) length, at);
@@ -60,6 +58,17 @@ static fg_status parse_values(const bench *b, side *s, const char *values)
         at += length + (at[length] == ' ');
     }
     return FG_OK;
+}
+
+// "a=1 b=2" over the defaults, and over both what --set gives.
+static fg_status parse_values(const bench *b, side *s, const char *values)
+{
+    const bool subject = b->program->subject && !strcmp(b->program->subject, s->plugin);
+    gi_params_default(s->table, s->set);
+    fg_status status = parse_words(b, s, values);
+    for (int i = 0; subject && i < b->set_count && status == FG_OK; i++)
+        status = parse_words(b, s, b->set[i]);
+    return status;
 }
 
 static bool there_is(const bench *b, const char *plugin)
@@ -71,27 +80,30 @@ static bool there_is(const bench *b, const char *plugin)
     return false;
 }
 
-fg_status side_open(const bench *b, side *s, ag_scene *scene, int size)
+static fg_status find_plugin(const bench *b, side *s)
 {
     if (!there_is(b, s->plugin)) {
-        fprintf(stderr, "bench_isr: there is no plugin %s\n", s->plugin);
+        fprintf(stderr, "%s: there is no plugin %s\n", b->program->name, s->plugin);
         return FG_ERR_UNSUPPORTED;
     }
     s->table = gi_find(b->registry, s->plugin);
     if (!s->table)
         return FG_ERR_UNSUPPORTED;
     s->set = calloc((size_t) gi_params_count(s->table) + 1, sizeof *s->set);
-    if (!s->set)
-        return FG_ERR_MEMORY;
-    const fg_status status = parse_values(b, s, s->values);
+    return s->set ? parse_values(b, s, s->values) : FG_ERR_MEMORY;
+}
+
+fg_status side_open(const bench *b, side *s, const int size[2])
+{
+    const fg_status status = s->plugin ? find_plugin(b, s) : FG_OK;
     if (status != FG_OK)
         return status;
     return renderer_create(&(renderer_desc){ .log = &b->log,
                                              .device = b->device,
-                                             .scene = scene,
-                                             .camera = b->has_camera ? &b->camera : NULL,
-                                             .width = size,
-                                             .height = size,
+                                             .scene = b->scene,
+                                             .camera_index = b->camera,
+                                             .width = size[0],
+                                             .height = size[1],
                                              .plugin = s->table,
                                              .values = s->set,
                                              .layers = s->picture ? 1u << LAYER_INDIRECT : 0 },
@@ -155,6 +167,18 @@ fg_status side_picture(side *s, image *out)
     return renderer_read(s->r, LAYER_INDIRECT, out);
 }
 
+void side_list_counters(const bench *b, side *s)
+{
+    gi_counter counters[16];
+    const int count = renderer_counters(s->r, counters, FG_COUNT(counters));
+    if (!b->verbose)
+        return;
+    fprintf(stderr, "%s: %s %s:", b->label, s->plugin, s->values);
+    for (int i = 0; i < count && i < FG_COUNT(counters); i++)
+        fprintf(stderr, " %s %.4g", counters[i].name, counters[i].value);
+    fprintf(stderr, "\n");
+}
+
 double side_counter(side *s, const char *name)
 {
     gi_counter counters[16];
@@ -202,8 +226,8 @@ void side_list(const bench *b, const side *s)
 {
     if (!b->verbose)
         return;
-    fprintf(stderr, "%s: %s %s: frame %.2f ms\n", b->scene_name, s->plugin, s->values,
-            samples_typical(&s->frame));
+    fprintf(stderr, "%s: %s %s: frame %.2f ms\n", b->label, s->plugin ? s->plugin : "direct light",
+            s->values ? s->values : "", samples_typical(&s->frame));
     for (int i = 0; i < s->pass_count; i++)
         fprintf(stderr, "    %-24s %9.3f ms\n", s->passes[i].name,
                 samples_typical(&s->passes[i].ms));
