@@ -20,6 +20,11 @@ static bool by_stencil(const ag_gather_pass *pass)
     return pass->multires && pass->multires->cull == AG_CULL_STENCIL;
 }
 
+static bool is_bounded(const ag_gather_pass *pass)
+{
+    return pass->clamp == AG_CLAMP_IRRADIANCE || pass->clamp == AG_CLAMP_GEOMETRY;
+}
+
 static int block_of(fg_device *device, const ag_gather_pass *pass)
 {
     return by_stencil(pass) ? 1 : pass->block ? pass->block : suitable_block(device);
@@ -27,7 +32,7 @@ static int block_of(fg_device *device, const ag_gather_pass *pass)
 
 static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
 {
-    static const int clamps[] = { 3, 1, 0, 2 }; // by ag_clamp, as gather.comp numbers them
+    static const int clamps[] = { 3, 1, 0, 2, 4, 4 }; // by ag_clamp, as gather.glsl numbers them
     char defines[96];
     const int block = block_of(device, pass), edge = block == 16 ? 4 : block == 4 ? 2 : 1;
     fg_gl_program_desc desc = { .shaders = { &gather_comp }, .defines = defines };
@@ -38,7 +43,10 @@ static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
                  pass->visibility ? ";VISIBILITY=1" : "");
     } else {
         snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s%s", edge, edge,
-                 clamps[pass->clamp], pass->multires ? ";LIST=1" : "",
+                 clamps[pass->clamp],
+                 pass->multires ? ";LIST=1"
+                 : pass->split  ? ";SPLIT=1"
+                                : "",
                  pass->visibility ? ";VISIBILITY=1" : "");
     }
     return fg_gl_program(device, &desc);
@@ -52,6 +60,21 @@ static int suitable_span(fg_device *device)
     return fg_gl_software(device) ? 640 : 16384;
 }
 
+// Most VPLs that a receiver has.
+static int longest_run(const ag_gather_pass *pass)
+{
+    const int tiles = pass->split ? pass->split->tiles * pass->split->tiles : 1;
+    return (pass->capacity + tiles - 1) / tiles;
+}
+
+static void dispatch_tiles(const ag_split_pass *split, uint32_t program, int edge)
+{
+    glProgramUniform3i(program, 3, split->tile[0], split->tile[1], split->tiles);
+    glDispatchCompute((GLuint) ((split->tile[0] + edge - 1) / edge),
+                      (GLuint) ((split->tile[1] + edge - 1) / edge),
+                      (GLuint) (split->tiles * split->tiles));
+}
+
 static void dispatch_spans(const fg_run *run, const ag_gather_pass *pass, uint32_t program,
                            int block)
 {
@@ -59,18 +82,20 @@ static void dispatch_spans(const fg_run *run, const ag_gather_pass *pass, uint32
     const int offset = block == 16  ? 48
                        : block == 4 ? 32
                                     : 16; // of its dispatch in multires->count
-    const int step = suitable_span(fg_run_device(run));
+    const int step = suitable_span(fg_run_device(run)), end = longest_run(pass);
     int size[3];
     fg_run_size(run, pass->out, 0, size);
-    for (int first = 0; first < pass->capacity; first += step) {
-        const bool last = first + step >= pass->capacity;
+    for (int first = 0; first < end; first += step) {
+        const bool last = first + step >= end;
         if (first > 0)
             glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        glProgramUniform3i(program, 2, first, last ? pass->capacity : first + step, last);
+        glProgramUniform3i(program, 2, first, last ? end : first + step, last);
         if (by_stencil(pass))
             fg_gl_fullscreen(run);
         else if (pass->multires)
             glDispatchComputeIndirect(offset);
+        else if (pass->split)
+            dispatch_tiles(pass->split, program, edge);
         else
             fg_gl_dispatch_2d(size[0], size[1], edge, edge);
     }
@@ -105,7 +130,9 @@ static fg_status run_gather(const fg_run *run, void *user)
     fg_gl_storage(run, 1, pass->count);
     fg_gl_image(run, 0, pass->out, 0, GL_READ_WRITE, FG_RGBA32F);
     if (pass->clamp == AG_CLAMP_CONSTANT)
-        glProgramUniform1f(program, 0, pass->clamp_d2);
+        glProgramUniform1f(program, 0, pass->bound);
+    else if (is_bounded(pass))
+        glProgramUniform2f(program, 0, pass->bound, pass->clamp == AG_CLAMP_GEOMETRY);
     if (pass->multires)
         bind_texels(run, pass->multires, program);
     const int block = block_of(device, pass);
@@ -114,6 +141,30 @@ static fg_status run_gather(const fg_run *run, void *user)
     glUseProgram(program);
     dispatch_spans(run, pass, program, block);
     return FG_OK;
+}
+
+static float bound_of(const ag_gather_desc *desc)
+{
+    return desc->clamp == AG_CLAMP_IRRADIANCE ? desc->clamp_e
+           : desc->clamp == AG_CLAMP_GEOMETRY ? desc->clamp_g
+                                              : desc->clamp_d2;
+}
+
+static bool check(const ag_gather_pass *pass, fg_graph *g, const ag_gather_desc *desc)
+{
+    const bool sparse = desc->multires || desc->visibility;
+    if (desc->block != 0 && desc->block != 1 && desc->block != 4 && desc->block != 16)
+        fg_fail(g, "%s: block is %d, must be 1, 4 or 16", desc->prefix, desc->block);
+    else if (is_bounded(pass) && !(pass->bound > 0))
+        fg_fail(g, "%s: clamp of a VPL is %g, must be above 0", desc->prefix, (double) pass->bound);
+    else if (sparse && is_bounded(pass))
+        fg_fail(g, "%s: a clamp of irradiance or geometry goes with neither multires nor ism",
+                desc->prefix);
+    else if (sparse && desc->split)
+        fg_fail(g, "%s: a split frame goes with neither multires nor ism", desc->prefix);
+    else
+        return true;
+    return false;
 }
 
 void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,
@@ -129,14 +180,17 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
         .count = vpls->count,
         .capacity = vpls->capacity,
         .clamp = desc->clamp,
-        .clamp_d2 = desc->clamp_d2,
+        .bound = bound_of(desc),
         .block = desc->block,
         .visibility = desc->visibility,
         .multires = desc->multires,
+        .split = desc->split && desc->split->tiles > 1 ? desc->split : NULL,
     };
-    if (desc->block != 0 && desc->block != 1 && desc->block != 4 && desc->block != 16) {
-        fg_fail(g, "%s: block is %d, must be 1, 4 or 16", desc->prefix, desc->block);
+    if (!check(pass, g, desc))
         return;
+    if (pass->split) {
+        pass->position = pass->split->position;
+        pass->normal = pass->split->normal;
     }
     snprintf(name, sizeof name, "%s.gather", desc->prefix);
     const ag_multires_pass every_pixel = { 0 }, *m = desc->multires ? desc->multires : &every_pixel;
@@ -144,11 +198,13 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
     const ag_ism_pass unshadowed = { 0 }, *ism = desc->visibility ? desc->visibility : &unshadowed;
     const fg_tex_desc tex = {
         .format = FG_RGBA32F,
-        .width = m->pyramid.size[0], // 0: the frame's
-        .height = m->pyramid.size[1],
+        .width = pass->split ? pass->split->size[0] : m->pyramid.size[0], // 0: the frame's
+        .height = pass->split ? pass->split->size[1] : m->pyramid.size[1],
     };
-    snprintf(texture, sizeof texture, pass->multires ? "%s.illumination" : "%s.indirect",
-             desc->prefix);
+    snprintf(texture, sizeof texture, "%s.%s", desc->prefix,
+             pass->multires ? "illumination"
+             : pass->split  ? "split_indirect"
+                            : "indirect");
     pass->out = fg_texture(g, texture, &tex);
     const fg_load load = pass->multires ? FG_LOAD_KEEP : FG_LOAD_DISCARD;
     const fg_pass_desc gather = {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Irradiance of receivers from all VPLs: gather.comp and gather.frag. BLOCK_X, BLOCK_Y: receivers of
-// one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint.
+// one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint, 4 bounded. LIST, SPLIT: see
+// receivers.glsl.
 //
 // E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
 // Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5.
 //         Departs from it: eq. 5 has A_j on top of the fraction, which makes watts of W/m^2.
 //         CLAMP 3: near a VPL the exact form factor of its patch, by Lambert's formula for
 //         polygons; a disc seen from beside its rim is far off.
+//         CLAMP 4: the irradiance of a VPL or its geometry term is bounded. Laine, Saransaari,
+//         Kontkanen, Lehtinen, Aila 2007, sec. 5.1.
 #include "passes/include/pass/view_shared.h"
 #include "passes/include/pass/vpl_shared.h"
 #ifdef VISIBILITY
@@ -47,90 +50,15 @@ layout(std430, binding = 1) readonly buffer count_buffer
 };
 #if CLAMP == 2
 layout(location = 0) uniform float clamp_d2; // m^2
+#elif CLAMP == 4
+layout(location = 0) uniform vec2 bound; // x: of a VPL's irradiance, W/m^2; with y 1 over its flux, 1/m^2
 #endif
-// VPLs of this dispatch: x first, y one past the last; z 1: no dispatch follows. Until then the image
-// holds the sum, without its factor.
+// Of its receivers' VPLs those of this dispatch: x first, y one past the last; z 1: no dispatch
+// follows. Until then the image holds the sum, without its factor.
 layout(location = 2) uniform ivec3 span;
 layout(binding = 0, rgba32f) uniform image2D indirect;
 
-// Receivers of one invocation lie `group` pixels, or 64 texels of the list, apart, so that neighbours
-// load neighbours. place_of(): where a receiver's sum stands.
-#ifdef FRAGMENT
-layout(location = 3) uniform ivec2 base; // size of level 0 in the pyramid
-
-bool is_there(int i)
-{
-    return true;
-}
-
-ivec2 place_of(int i)
-{
-    return ivec2(gl_FragCoord.xy);
-}
-
-void fetch_receiver(int i, out vec3 position, out vec3 normal)
-{
-    multires_receiver(multires_at_place(place_of(i), base), position, normal);
-}
-#elif defined(LIST)
-layout(std430, binding = 2) readonly buffer texel_buffer
-{
-    uint texels[];
-};
-layout(std430, binding = 3) readonly buffer texel_count_buffer
-{
-    uvec4 texel_count;
-};
-layout(location = 3) uniform ivec2 base; // size of level 0 in the pyramid
-
-uint receiver(int i)
-{
-    uint group_index = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    return (group_index * group * group + gl_LocalInvocationIndex) * block + i;
-}
-
-bool is_there(int i)
-{
-    return receiver(i) < texel_count.x;
-}
-
-multires_texel texel_of(int i)
-{
-    return multires_unpack(texels[min(receiver(i), texel_count.x - 1u)]);
-}
-
-ivec2 place_of(int i)
-{
-    return multires_place(texel_of(i), base);
-}
-
-void fetch_receiver(int i, out vec3 position, out vec3 normal)
-{
-    multires_receiver(texel_of(i), position, normal);
-}
-#else
-ivec2 receiver(int i)
-{
-    ivec2 base = ivec2(gl_WorkGroupID.xy) * group * ivec2(BLOCK_X, BLOCK_Y);
-    return base + ivec2(gl_LocalInvocationID.xy) + group * ivec2(i % BLOCK_X, i / BLOCK_X);
-}
-
-bool is_there(int i)
-{
-    return all(lessThan(receiver(i), view.size.xy));
-}
-
-ivec2 place_of(int i)
-{
-    return min(receiver(i), view.size.xy - 1);
-}
-
-void fetch_receiver(int i, out vec3 position, out vec3 normal)
-{
-    position = texelFetch(position_map, place_of(i), 0).xyz;
-    normal = texelFetch(normal_map, place_of(i), 0).xyz;
-}
-#endif
+#include "passes/gather/receivers.glsl"
 
 #if CLAMP == 3
 #include "passes/gather/near.glsl"
@@ -194,8 +122,9 @@ void main()
     // Lengths in units of about the scene: d^4 stays in range at any scale. The unit is a power of
     // two, so the scaling rounds nothing.
     float unit = view.scale.x;
-    int total = min(int(count.x), span.y);
-    if (span.x > 0 && span.x >= total && span.z == 0)
+    ivec2 run = run_of_vpls(int(count.x));
+    int first = run.x + span.x, total = min(run.y, run.x + span.y);
+    if (span.x > 0 && first >= total && span.z == 0)
         return;
     for (int i = 0; i < block; i++) {
         fetch_receiver(i, p[i], n[i]);
@@ -210,7 +139,7 @@ void main()
 #if CLAMP == 2
     float least = pi * clamp_d2 * unit * unit;
 #endif
-    for (int start = span.x; start < total; start += tile) {
+    for (int start = first; start < total; start += tile) {
         vec3 part[block];
         for (int i = 0; i < block; i++)
             part[i] = vec3(0.0);
@@ -225,6 +154,9 @@ void main()
             float area = vpls[j].position_area.w * unit * unit;
 #if CLAMP == 3
             bool any_near = false;
+#elif CLAMP == 4
+            float per = bound.y > 0.5 ? 1.0 : max(max(flux.r, flux.g), max(flux.b, 1e-30));
+            float most = bound.x / (unit * unit * per);
 #endif
 #ifdef VISIBILITY
             ism_map map = ism_open(ism_map_of(j, int(count.x)));
@@ -234,7 +166,7 @@ void main()
                 float d2 = dot(d, d);
                 float cos_i = max(dot(n[i], d), 0.0);  // times |d|
                 float cos_j = max(-dot(m, d), 0.0);    // times |d|
-#if CLAMP == 0
+#if CLAMP == 0 || CLAMP == 4
                 float spread = pi * d2;
 #elif CLAMP == 2
                 float spread = max(pi * d2, least);
@@ -247,6 +179,8 @@ void main()
                 bool is_near = patch_is_near(d2, cos_j, area);
                 share = is_near ? 0.0 : share;
                 any_near = any_near || is_near;
+#elif CLAMP == 4
+                share = min(share, most);
 #endif
 #ifdef VISIBILITY
                 if (share > 0.0)
@@ -273,7 +207,7 @@ void main()
         if (span.x > 0)
 #endif
             sum[i] += imageLoad(indirect, at).rgb;
-        float factor = span.z != 0 ? unit * unit / pi : 1.0;
+        float factor = span.z != 0 ? unit * unit / pi * share_of_vpls() : 1.0;
         imageStore(indirect, at, vec4(min(sum[i] * factor, vec3(3.0e38)), 1.0));
     }
 }

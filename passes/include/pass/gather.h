@@ -2,6 +2,7 @@
 #ifndef PASS_GATHER_H
 #define PASS_GATHER_H
 
+#include <pass/interleave.h>
 #include <pass/ism.h>
 #include <pass/multires.h>
 #include <pass/vpl.h>
@@ -15,6 +16,9 @@ typedef enum ag_clamp {
     AG_CLAMP_DISC,          // pi d^2 + A_j: the VPL is a disc of its own area. No length is tuned.
     AG_CLAMP_NONE,          // pi d^2
     AG_CLAMP_CONSTANT,      // pi max(d^2, clamp_d2)
+    AG_CLAMP_IRRADIANCE, // NONE, but what a VPL adds to E is scaled until none of r, g, b is above
+                         // clamp_e: Laine et al. 2007, sec. 5.1
+    AG_CLAMP_GEOMETRY,   // NONE, but cos_i cos_j / (pi d^2) is at most clamp_g
 } ag_clamp;
 
 // Sums all VPLs at every pixel: pass "PREFIX.gather".
@@ -23,8 +27,13 @@ typedef enum ag_clamp {
 //
 // V_ij is 1 for all, or what imperfect shadow maps say.
 //
+// With `split` each of its n x n tiles is lit by the VPLs of its own alone, times n^2: tile (i, j)
+// has the run j n + i of the list, each count / n^2 VPLs long, one more where j n + i < count %
+// n^2. What bounds a VPL acts on it before it is multiplied.
+//
 // Shapes: out RGBA32F of the frame's size; a 1. With `multires`: at its valid texels alone, of the
-//         size of its pyramid. Left out where there is no light or no geometry.
+//         size of its pyramid; with `split`: of the split's size. Left out where there is no light
+//         or no geometry.
 // Units:  E / pi, W/(m^2 sr).
 // Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5. Departs from it: see gather.comp.
 typedef struct ag_gather_pass {
@@ -32,21 +41,27 @@ typedef struct ag_gather_pass {
     fg_res position, normal, vpls, count;
     fg_res out;
     ag_clamp clamp;
-    float clamp_d2;
+    float bound;  // clamp_d2, clamp_e or clamp_g
     int block;    // receivers of one invocation: 1, 4 or 16
     int capacity; // of `vpls`
     const ag_ism_pass *visibility;
     const ag_multires_pass *multires;
+    const ag_split_pass *split; // NULL with one tile
 } ag_gather_pass;
 
 typedef struct ag_gather_desc {
     const char *prefix;
     ag_clamp clamp;
     float clamp_d2;                // m^2, > 0; CONSTANT only
+    float clamp_e;                 // W/m^2, > 0; IRRADIANCE only
+    float clamp_g;                 // 1/m^2, > 0; GEOMETRY only
     int block;                     // 1, 4 or 16; 0: what suits the device (16 on a CPU, else 4)
     const ag_ism_pass *visibility; // maps of these VPLs, declared before; borrowed while the graph
                                    // runs. NULL: nothing shadows them
     const ag_multires_pass *multires; // NULL: every pixel. Borrowed while the graph runs.
+    const ag_split_pass *split;       // NULL: the frame in one. Borrowed while the graph runs. With
+                                // neither multires nor visibility; IRRADIANCE and GEOMETRY too
+                                // are not for those.
 } ag_gather_desc;
 
 FG_API void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,

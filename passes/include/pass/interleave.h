@@ -18,7 +18,7 @@ FG_BEGIN
 //     ... filter.out ...
 //
 // Tile (i, j) holds the pixels (a n + i, b n + j), as far as there are any: sec. 5.1. With n 1
-// split and combine change nothing and are left out: what they would make is what they are given.
+// all three change nothing and are left out: what they would make is what they are given.
 //
 // Source: Laine, Saransaari, Kontkanen, Lehtinen, Aila. Incremental Instant Radiosity for
 //         Real-Time Indirect Illumination. EGSR 2007, sec. 5; Segovia, Iehl, Mitanchey, Peroche.
@@ -27,19 +27,22 @@ FG_BEGIN
 // Pass "PREFIX.split".
 // Shapes: position RGBA32F, normal RGBA16F as in the G-buffer, [n ceil(w / n) x n ceil(h / n)], of
 //         n x n tiles; where a tile has no pixel w is 0.
+enum { AG_MAX_TILES = 16 };
+
 typedef struct ag_split_pass {
     ag_scene_res scene;
     ag_gbuffer gbuffer;
     fg_res position, normal;
     const char *prefix; // as the descriptor had it: static
-    int tiles;
-    int size[2]; // of the split textures
-    int tile[2]; // of one tile
+    int tiles;          // n: what was asked for, but no more than the frame has rows or columns
+    int frame[2];       // pixels
+    int size[2];        // of the split textures
+    int tile[2];        // of one tile
 } ag_split_pass;
 
 typedef struct ag_split_desc {
     const char *prefix; // static
-    int tiles;          // n, [1, 16]
+    int tiles;          // n, [1, AG_MAX_TILES]
     int width, height;  // of the frame
 } ag_split_desc;
 
@@ -56,11 +59,16 @@ FG_API void ag_combine_declare(ag_combine_pass *pass, fg_graph *g, const ag_spli
                                fg_res in);
 
 // Pass "PREFIX.filter": the mean over those of the n x n pixels about each that belong to its
-// surface (fig. 5). Every pixel counts itself.
-// Shapes: in, out RGBA32F of the frame's size.
+// surface (fig. 5). Every pixel counts itself; what is not finite does not count.
+//
+// Where all n x n belong, each tile is met once and its pattern gone. For that the window is
+// shifted inwards at the image's border. With an even n its middle lies half a pixel to the left
+// and below.
+//
+// Shapes: in, out RGBA32F of the frame's size; a 1; 0 where nothing is.
 typedef enum ag_box_metric {
     AG_BOX_PLANE = 0, // alpha bounds how far a pixel lies off the plane of the middle one, over the
-                      // distance to the viewer
+                      // distance to the viewer (orthographic: over the scene's size)
     AG_BOX_DISTANCE,  // alpha bounds the distance of the two, m: the paper's
 } ag_box_metric;
 typedef struct ag_box_filter_pass {
@@ -72,7 +80,7 @@ typedef struct ag_box_filter_pass {
 typedef struct ag_box_filter_desc {
     ag_box_metric metric;
     float alpha; // > 0
-    float beta;  // least cosine between the normals; the paper's is 0.8
+    float beta;  // least cosine between the normals, [-1, 1]; the paper's is 0.8
 } ag_box_filter_desc;
 FG_API void ag_box_filter_declare(ag_box_filter_pass *pass, fg_graph *g, const ag_split_pass *split,
                                   fg_res in, const ag_box_filter_desc *desc);

@@ -1,0 +1,538 @@
+// SPDX-License-Identifier: MIT
+// Split, tiled gather, combine and box filter, on G-buffers and VPLs made up here.
+#include "feed.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <pass/gather.h>
+#include <pass/interleave.h>
+#include <pass/vpl_shared.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979;
+
+static void whole(feed *f, const double n[3], double d)
+{
+    feed_plane(f, (int[4]){ 0, 0, f->width, f->height }, n, d);
+}
+
+// ---- split and combine --------------------------------------------------------------------------
+
+static void declare_split(ag_split_pass *split, feed *f, int tiles)
+{
+    const ag_split_desc desc = {
+        .prefix = "t", .tiles = tiles, .width = f->width, .height = f->height
+    };
+    ag_split_declare(split, f->graph, &f->scene, &f->gbuffer, &desc);
+}
+
+// Every texel of the split image against the pixel that it is of.
+static void assert_split(const feed *f, const ag_split_pass *split, const float *texels,
+                         float (*pixels)[4])
+{
+    const int n = split->tiles;
+    for (int y = 0; y < split->size[1]; y++)
+        for (int x = 0; x < split->size[0]; x++) {
+            static const float nothing[4] = { 0 };
+            const int at[2] = { x % split->tile[0] * n + x / split->tile[0],
+                                y % split->tile[1] * n + y / split->tile[1] };
+            const bool there = at[0] < f->width && at[1] < f->height;
+            const float *want = there ? pixels[at[1] * f->width + at[0]] : nothing;
+            const float *got = texels + 4 * ((size_t) y * (size_t) split->size[0] + (size_t) x);
+            assert_true(same_bits(got, want, 4 * sizeof *got));
+        }
+}
+
+static void check_there_and_back(int width, int height, int n)
+{
+    feed f;
+    ag_split_pass split;
+    ag_combine_pass combine;
+    feed_init(&f, width, height, 0);
+    feed_scene(&f, FEED_NOISE, (uint32_t) (width + n));
+    feed_begin(&f);
+    declare_split(&split, &f, n);
+    ag_combine_declare(&combine, f.graph, &split, split.position);
+    if (split.tiles == 1) { // nothing is declared, nothing is to be run
+        assert_true(split.position.id == f.gbuffer.position.id);
+        assert_true(split.normal.id == f.gbuffer.normal.id);
+        assert_true(combine.out.id == split.position.id);
+    } else {
+        fg_export(f.graph, split.position);
+        fg_export(f.graph, split.normal);
+        fg_export(f.graph, combine.out);
+        feed_run(&f);
+        float *position = feed_texels(&f, split.position), *normal = feed_texels(&f, split.normal);
+        float *back = feed_texels(&f, combine.out);
+        assert_split(&f, &split, position, f.position);
+        assert_split(&f, &split, normal, f.normal);
+        assert_true(same_bits(back, f.position, sizeof(float[4]) * (size_t) (width * height)));
+        free(position);
+        free(normal);
+        free(back);
+    }
+    feed_finish(&f);
+}
+
+static void combining_undoes_the_split(void **state)
+{
+    static const int sizes[][2] = { { 1, 1 }, { 2, 1 }, { 8, 8 }, { 17, 3 }, { 65, 63 } };
+    (void) state;
+    for (int s = 0; s < FG_COUNT(sizes); s++)
+        for (int n = 1; n <= 9; n++)
+            check_there_and_back(sizes[s][0], sizes[s][1], n < 9 ? n : AG_MAX_TILES);
+}
+
+// ---- gather of tiles ----------------------------------------------------------------------------
+
+enum { MAX_VPLS = 300 };
+
+typedef struct lit {
+    feed f;
+    ag_vpl vpls[MAX_VPLS];
+    uint32_t count[4];
+    uint32_t buffers[2];
+    ag_vpl_pass pass;
+    ag_split_pass split;
+    ag_gather_pass gather;
+    ag_combine_pass combine;
+    ag_box_filter_pass filter;
+} lit;
+
+// VPLs in the plane z = -1, within half a metre, that shine towards -z.
+static void lit_init(lit *l, int width, int height, int count)
+{
+    uint32_t seed = 1;
+    *l = (lit){ .count = { (uint32_t) count } };
+    feed_init(&l->f, width, height, 0);
+    for (int i = 0; i < MAX_VPLS; i++)
+        l->vpls[i] = (ag_vpl){
+            .position_area = { (float) feed_random(&seed) - 0.5f, (float) feed_random(&seed) - 0.5f,
+                               -1, 0.01f },
+            .normal = { 0, 0, -1 },
+            .flux = { (float) feed_random(&seed), (float) feed_random(&seed), 1 },
+        };
+}
+
+static void lit_finish(lit *l)
+{
+    glDeleteBuffers(2, l->buffers);
+    feed_finish(&l->f);
+}
+
+static void lit_begin(lit *l)
+{
+    const fg_buf_desc vpls = { .size = sizeof l->vpls }, count = { .size = sizeof l->count };
+    feed_begin(&l->f);
+    glDeleteBuffers(2, l->buffers);
+    glCreateBuffers(2, l->buffers);
+    glNamedBufferStorage(l->buffers[0], sizeof l->vpls, l->vpls, 0);
+    glNamedBufferStorage(l->buffers[1], sizeof l->count, l->count, 0);
+    l->pass = (ag_vpl_pass){
+        .vpls = fg_import_buffer(l->f.graph, "t.vpls", &vpls, l->buffers[0]),
+        .count = fg_import_buffer(l->f.graph, "t.count", &count, l->buffers[1]),
+        .capacity = MAX_VPLS,
+    };
+}
+
+// E / pi at every pixel, the caller's to free; with `n` above 0 of a split frame, not filtered.
+static float *lit_run(lit *l, int n, ag_gather_desc desc)
+{
+    lit_begin(l);
+    desc.prefix = "t";
+    if (n > 0) {
+        declare_split(&l->split, &l->f, n);
+        desc.split = &l->split;
+    }
+    ag_gather_declare(&l->gather, l->f.graph, &l->f.scene, &l->f.gbuffer, &l->pass, &desc);
+    fg_res out = l->gather.out;
+    if (n > 0) {
+        ag_combine_declare(&l->combine, l->f.graph, &l->split, out);
+        out = l->combine.out;
+    }
+    fg_export(l->f.graph, out);
+    feed_run(&l->f);
+    return feed_texels(&l->f, out);
+}
+
+// The plane z = -d, each n x n pixels showing the one point: all tiles are then the same image.
+static void show_blocks(feed *f, int n, double d)
+{
+    whole(f, (double[3]){ 0, 0, 1 }, -d);
+    for (int y = 0; y < f->height; y++)
+        for (int x = 0; x < f->width; x++)
+            memcpy(f->position[y * f->width + x], f->position[(y - y % n) * f->width + (x - x % n)],
+                   sizeof f->position[0]);
+}
+
+static void check_sum(int n, int count, const ag_gather_desc *desc)
+{
+    enum { EDGE = 48 }; // multiples of all n
+    lit l;
+    lit_init(&l, EDGE, EDGE, count);
+    show_blocks(&l.f, n, 1.2);
+    float *full = lit_run(&l, 0, *desc), *tiled = lit_run(&l, n, *desc);
+    for (int y = 0; y < EDGE; y += n)
+        for (int x = 0; x < EDGE; x += n)
+            for (int k = 0; k < 4; k++) {
+                double mean = 0;
+                for (int i = 0; i < n * n; i++)
+                    mean += (double) tiled[4 * ((y + i / n) * EDGE + x + i % n) + k] / (n * n);
+                const double want = (double) full[4 * (y * EDGE + x) + k];
+                // Each of at most `count` positive terms, and each sum, rounds by 6e-8, in both;
+                // other code for other permutations: some ten roundings a term.
+                assert_true(fabs(mean - want) <= 6e-8 * (2 * count + 20) * want);
+                assert_true(k == 3 || count == 0 || want > 0);
+            }
+    free(full);
+    free(tiled);
+    lit_finish(&l);
+}
+
+static void tiles_add_up_to_all_vpls(void **state)
+{
+    static const ag_gather_desc clamps[] = {
+        { .clamp = AG_CLAMP_FOOTPRINT },
+        { .clamp = AG_CLAMP_DISC },
+        { .clamp = AG_CLAMP_NONE },
+        { .clamp = AG_CLAMP_CONSTANT, .clamp_d2 = 0.1f },
+        { .clamp = AG_CLAMP_IRRADIANCE, .clamp_e = 1 },
+        { .clamp = AG_CLAMP_GEOMETRY, .clamp_g = 1, .block = 4 },
+    };
+    static const int counts[] = { 0, 1, 3, 15, 16, 17, 37, MAX_VPLS };
+    (void) state;
+    for (int c = 0; c < FG_COUNT(clamps); c++)
+        check_sum(4, 61, &clamps[c]);
+    for (int i = 0; i < FG_COUNT(counts); i++)
+        check_sum(4, counts[i], &clamps[1]);
+    check_sum(2, MAX_VPLS, &clamps[0]);
+    check_sum(3, 61, &clamps[0]); // n^2 is no power of two
+    check_sum(8, 61, &clamps[0]); // fewer VPLs than tiles
+}
+
+// Irradiance over pi of one VPL, as a disc.
+static double disc_of(const ag_vpl *v, const float *p)
+{
+    double d[3], d2 = 0;
+    for (int k = 0; k < 3; k++) {
+        d[k] = (double) v->position_area[k] - (double) p[k];
+        d2 += d[k] * d[k];
+    }
+    return d[2] * d[2] / (d2 * (pi * d2 + (double) v->position_area[3])) / pi;
+}
+
+static void each_tile_has_its_run_of_the_list(void **state)
+{
+    enum { W = 37, H = 29, N = 3, COUNT = 14 }; // 9 tiles: five of two VPLs, four of one
+    static const ag_gather_desc disc = { .clamp = AG_CLAMP_DISC };
+    lit l;
+    (void) state;
+    lit_init(&l, W, H, COUNT);
+    whole(&l.f, (double[3]){ 0, 0, 1 }, -2);
+    float *got = lit_run(&l, N, disc);
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            const size_t at = (size_t) (y * W + x);
+            const int t = y % N * N + x % N, first = t < 5 ? 2 * t : t + 5;
+            for (int k = 0; k < 3; k++) {
+                double want = 0;
+                for (int j = first; j < first + (t < 5 ? 2 : 1); j++)
+                    want +=
+                        N * N * disc_of(&l.vpls[j], l.f.position[at]) * (double) l.vpls[j].flux[k];
+                // Some ten roundings of terms, of differences of lengths about 1.
+                assert_true(fabs((double) got[4 * at + (size_t) k] - want) < 3e-6 * want);
+            }
+        }
+    free(got);
+    lit_finish(&l);
+}
+
+static void what_bounds_a_vpl_bounds_it_alone(void **state)
+{
+    enum { EDGE = 8 };
+    static const ag_gather_desc none = { .clamp = AG_CLAMP_NONE };
+    static const ag_gather_desc irradiance = { .clamp = AG_CLAMP_IRRADIANCE, .clamp_e = 0.75f };
+    static const ag_gather_desc geometry = { .clamp = AG_CLAMP_GEOMETRY, .clamp_g = 3 };
+    lit l;
+    (void) state;
+    lit_init(&l, EDGE, EDGE, 1);
+    show_blocks(&l.f, EDGE, 1.1);
+    const float *p = l.f.position[0];
+    l.vpls[0] = (ag_vpl){ .position_area = { p[0], p[1], -1, 0.01f }, // G = 1 / (pi 0.01)
+                          .normal = { 0, 0, -1 },
+                          .flux = { 0.5f, 2, 1 } };
+    float *free_ = lit_run(&l, 0, none);
+    float *e = lit_run(&l, 2, irradiance), *g = lit_run(&l, 2, geometry);
+    for (int k = 0; k < 3; k++) {
+        const double flux = (double) l.vpls[0].flux[k];
+        assert_true((double) free_[k] * pi > 3 * flux && (double) free_[k] * pi > 0.75);
+        // Before the factor of 4 tiles; the largest component, green, is at the bound and colour
+        // stays.
+        assert_true(fabs((double) e[k] * pi / 4 - 0.75 * flux / 2) < 1e-6);
+        assert_true(fabs((double) g[k] * pi / 4 - 3 * flux) < 1e-5);
+    }
+    free(free_);
+    free(e);
+    free(g);
+    lit_finish(&l);
+}
+
+static void one_tile_is_no_split(void **state)
+{
+    static const int sizes[][2] = { { 33, 31 }, { 1, 1 } }; // a pixel takes no more than one tile
+    static const ag_gather_desc desc = { 0 };
+    (void) state;
+    for (int s = 0; s < FG_COUNT(sizes); s++) {
+        const size_t size = sizeof(float[4]) * (size_t) (sizes[s][0] * sizes[s][1]);
+        lit l;
+        lit_init(&l, sizes[s][0], sizes[s][1], MAX_VPLS);
+        whole(&l.f, (double[3]){ 0.3, 0.1, 1 }, -1.5);
+        float *full = lit_run(&l, 0, desc), *tiled = lit_run(&l, s == 0 ? 1 : 8, desc);
+        assert_true(full[0] > 0 && same_bits(full, tiled, size));
+        free(full);
+        free(tiled);
+        lit_finish(&l);
+    }
+}
+
+// ---- filter -------------------------------------------------------------------------------------
+
+typedef struct picture {
+    feed f;
+    float (*light)[4];
+    uint32_t texture;
+} picture;
+
+static void picture_init(picture *p, int width, int height)
+{
+    p->texture = 0;
+    feed_init(&p->f, width, height, 0);
+    p->light = calloc((size_t) (width * height), sizeof *p->light);
+    assert_non_null(p->light);
+}
+
+static void picture_finish(picture *p)
+{
+    glDeleteTextures(1, &p->texture);
+    free(p->light);
+    feed_finish(&p->f);
+}
+
+// A value for each tile, the same in every block. Returns their mean.
+static double set_pattern(picture *p, int n)
+{
+    float value[AG_MAX_TILES * AG_MAX_TILES];
+    uint32_t seed = 7;
+    double mean = 0;
+    for (int i = 0; i < n * n; i++) {
+        value[i] = (float) feed_random(&seed);
+        mean += (double) value[i] / (n * n);
+    }
+    for (int i = 0; i < p->f.width * p->f.height; i++)
+        for (int k = 0; k < 3; k++)
+            p->light[i][k] = value[i / p->f.width % n * n + i % p->f.width % n];
+    return mean;
+}
+
+static float *filtered(picture *p, int n, ag_box_filter_desc desc)
+{
+    feed *f = &p->f;
+    ag_split_pass split;
+    ag_box_filter_pass filter;
+    feed_begin(f);
+    glDeleteTextures(1, &p->texture);
+    glCreateTextures(GL_TEXTURE_2D, 1, &p->texture);
+    glTextureStorage2D(p->texture, 1, GL_RGBA32F, f->width, f->height);
+    glTextureSubImage2D(p->texture, 0, 0, 0, f->width, f->height, GL_RGBA, GL_FLOAT, p->light);
+    const fg_tex_desc tex = { .format = FG_RGBA32F, .width = f->width, .height = f->height };
+    const fg_res in = fg_import_texture(f->graph, "t.light", &tex, p->texture);
+    declare_split(&split, f, n);
+    ag_box_filter_declare(&filter, f->graph, &split, in, &desc);
+    fg_export(f->graph, filter.out);
+    feed_run(f);
+    return feed_texels(f, filter.out);
+}
+
+static const ag_box_filter_desc plane = { .alpha = 0.01f, .beta = 0.8f };
+
+// Whether the window of a pixel, shifted inwards at the border, is full.
+static bool sees_all(const feed *f, int x, int y, int n)
+{
+    const int left = x - n / 2 < 0 ? 0 : x - n / 2 > f->width - n ? f->width - n : x - n / 2;
+    const int low = y - n / 2 < 0 ? 0 : y - n / 2 > f->height - n ? f->height - n : y - n / 2;
+    for (int i = 0; i < n * n; i++)
+        if (f->position[(low + i / n) * f->width + left + i % n][3] <= 0)
+            return false;
+    return true;
+}
+
+// The pattern of a plane is gone where the plane fills the window. Returns how many pixels.
+static int check_pattern(picture *p, int n, ag_box_filter_desc desc)
+{
+    const double mean = set_pattern(p, n);
+    float *got = filtered(p, n, desc);
+    int count = 0;
+    for (int i = 0; i < p->f.width * p->f.height; i++) {
+        const bool there = p->f.position[i][3] > 0;
+        assert_true(got[4 * i + 3] == (there ? 1 : 0));
+        if (there && !sees_all(&p->f, i % p->f.width, i / p->f.width, n))
+            continue;
+        // A sum of at most 64 terms of below 1, and a division.
+        assert_true(fabs((double) got[4 * i] - (there ? mean : 0)) < 66 * 6e-8);
+        count += there;
+    }
+    free(got);
+    return count;
+}
+
+static void pattern_of_a_plane_goes(void **state)
+{
+    static const int sizes[][2] = { { 65, 63 }, { 8, 8 }, { 40, 9 } };
+    // Head-on; at slants; a floor to the horizon, by a normal that no half float holds: its last
+    // rows are 5 m and 16 m away, 0.1 m below the eye.
+    static const double planes[][3] = {
+        { 0, 0, 1 }, { 0.6, -0.3, 0.7 }, { 0.9, -0.3, 0.4 }, { 0.05, 1, 0.0071 }
+    };
+    const ag_box_filter_desc distance = { AG_BOX_DISTANCE, INFINITY, 0.8f };
+    (void) state;
+    for (int s = 0; s < FG_COUNT(sizes); s++)
+        for (int i = 0; i < FG_COUNT(planes); i++) {
+            const int pixels = sizes[s][0] * sizes[s][1], least = i < 2    ? pixels
+                                                                  : s == 0 ? pixels / 8
+                                                                           : 0;
+            picture p;
+            picture_init(&p, sizes[s][0], sizes[s][1]);
+            whole(&p.f, planes[i], -0.1);
+            for (int n = 2; n <= 8; n++)
+                assert_true(check_pattern(&p, n, plane) >= least);
+            check_pattern(&p, 5, distance);
+            picture_finish(&p);
+        }
+}
+
+static void light_stays_on_its_surface(void **state)
+{
+    enum { W = 32, H = 24 };
+    // Right half: farther off; turned by 60 degrees about the edge, where only beta tells; nothing.
+    static const double normals[][3] = { { 0, 0, 1 }, { -0.866, 0, 0.5 }, { 0, 0, 1 } };
+    static const double depths[] = { -1.1, -0.5, 0 };
+    (void) state;
+    for (int c = 0; c < 3; c++)
+        for (int metric = 0; metric < 2; metric++) {
+            const ag_box_filter_desc desc = { metric ? AG_BOX_DISTANCE : AG_BOX_PLANE, 0.05f,
+                                              0.8f };
+            picture p;
+            picture_init(&p, W, H);
+            feed_plane(&p.f, (int[4]){ 0, 0, W / 2, H }, (double[3]){ 0, 0, 1 }, -1);
+            if (depths[c] < 0)
+                feed_plane(&p.f, (int[4]){ W / 2, 0, W, H }, normals[c], depths[c]);
+            for (int i = 0; i < W * H; i++)
+                for (int k = 0; k < 3; k++)
+                    p.light[i][k] = i % W < W / 2 ? 3 : 5;
+            float *got = filtered(&p, 4, desc);
+            for (int i = 0; i < W * H; i++)
+                assert_true(got[4 * i] == (i % W < W / 2 ? 3 : depths[c] < 0 ? 5 : 0));
+            free(got);
+            picture_finish(&p);
+        }
+}
+
+static void a_pixel_counts_itself(void **state)
+{
+    enum { EDGE = 16 };
+    picture p;
+    (void) state;
+    picture_init(&p, EDGE, EDGE);
+    feed_scene(&p.f, FEED_NOISE, 3);
+    for (int i = 0; i < EDGE * EDGE; i++)
+        for (int k = 0; k < 3; k++)
+            p.light[i][k] = (float) (i + 1);
+    // No cosine is above 1, and no other pixel lies within a micrometre.
+    for (int metric = 0; metric < 2; metric++) {
+        const ag_box_filter_desc desc = { metric ? AG_BOX_DISTANCE : AG_BOX_PLANE, 1e-6f, 1 };
+        float *got = filtered(&p, 4, desc);
+        for (int i = 0; i < EDGE * EDGE; i++)
+            assert_true(got[4 * i] == (p.f.position[i][3] > 0 ? (float) (i + 1) : 0));
+        free(got);
+    }
+    picture_finish(&p);
+}
+
+static void what_is_not_finite_does_not_spread(void **state)
+{
+    enum { EDGE = 16, BAD = 5 * EDGE + 7 };
+    static const float bad[] = { NAN, INFINITY, -INFINITY };
+    (void) state;
+    for (int b = 0; b < FG_COUNT(bad); b++) {
+        picture p;
+        picture_init(&p, EDGE, EDGE);
+        whole(&p.f, (double[3]){ 0, 0, 1 }, -1);
+        for (int i = 0; i < EDGE * EDGE; i++)
+            for (int k = 0; k < 3; k++)
+                p.light[i][k] = 3e38f; // a sum of them would overflow
+        p.light[BAD][1] = bad[b];
+        float *got = filtered(&p, 4, plane);
+        for (int i = 0; i < 4 * EDGE * EDGE; i++) // to a last bit
+            assert_true(fabs((double) got[i] / (i % 4 < 3 ? 3e38 : 1) - 1) < 2e-7);
+        free(got);
+        picture_finish(&p);
+    }
+}
+
+static void mistakes_name_value_and_rule(void **state)
+{
+    static const struct {
+        int tiles;
+        ag_box_filter_desc filter;
+        ag_gather_desc gather;
+        const char *message;
+    } cases[] = {
+        { 0, { 0, 1, 0 }, { 0 }, "t: tiles is 0, must lie in [1, 16]" },
+        { 17, { 0, 1, 0 }, { 0 }, "t: tiles is 17, must lie in [1, 16]" },
+        { 4, { 0, 0, 0 }, { 0 }, "t: alpha is 0, must be above 0" },
+        { 4, { 0, 1, NAN }, { 0 }, "t: beta is nan, must lie in [-1, 1]" },
+        { 4,
+          { 0, 1, 0 },
+          { .clamp = AG_CLAMP_IRRADIANCE },
+          "t: clamp of a VPL is 0, must be above 0" },
+        { 4,
+          { 0, 1, 0 },
+          { .clamp = AG_CLAMP_GEOMETRY },
+          "t: clamp of a VPL is 0, must be above 0" },
+    };
+    (void) state;
+    for (int i = 0; i < FG_COUNT(cases); i++) {
+        lit l;
+        ag_gather_desc gather = cases[i].gather;
+        lit_init(&l, 8, 8, 1);
+        lit_begin(&l);
+        log_clear();
+        gather.prefix = "t";
+        gather.split = &l.split;
+        declare_split(&l.split, &l.f, cases[i].tiles);
+        ag_gather_declare(&l.gather, l.f.graph, &l.f.scene, &l.f.gbuffer, &l.pass, &gather);
+        ag_combine_declare(&l.combine, l.f.graph, &l.split, l.gather.out);
+        ag_box_filter_declare(&l.filter, l.f.graph, &l.split, l.combine.out, &cases[i].filter);
+        assert_int_equal(fg_graph_compile(l.f.graph), FG_ERR_INVALID);
+        assert_non_null(strstr(log_text(), cases[i].message));
+        lit_finish(&l);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(combining_undoes_the_split),
+        cmocka_unit_test(tiles_add_up_to_all_vpls),
+        cmocka_unit_test(each_tile_has_its_run_of_the_list),
+        cmocka_unit_test(what_bounds_a_vpl_bounds_it_alone),
+        cmocka_unit_test(one_tile_is_no_split),
+        cmocka_unit_test(pattern_of_a_plane_goes),
+        cmocka_unit_test(light_stays_on_its_surface),
+        cmocka_unit_test(a_pixel_counts_itself),
+        cmocka_unit_test(what_is_not_finite_does_not_spread),
+        cmocka_unit_test(mistakes_name_value_and_rule),
+    };
+    return cmocka_run_group_tests(tests, device_setup, device_teardown);
+}
