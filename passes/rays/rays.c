@@ -9,6 +9,7 @@
 #include <embree3/rtcore.h>
 #endif
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -169,22 +170,40 @@ static void note_hit(query *q, const ag_hit *hit)
         q->hits[at] = *hit;
 }
 
-// Only single rays are cast, so that there is one hit to judge.
+// Whether a ray passes through what it has met; notes the hit where all are wanted.
+static bool lets_pass(query *q, const target *t, const struct RTCRay *ray, const struct RTCHit *hit)
+{
+    if (!lies_ahead(t, ray, hit->primID) || masked(t, hit))
+        return true;
+    if (!q->all)
+        return false;
+    const ag_hit found = { .distance = ray->tfar,
+                           .instance = (int) (t->instance - t->scene->instances),
+                           .triangle = hit->primID,
+                           .barycentric = { hit->u, hit->v } };
+    note_hit(q, &found);
+    return true;
+}
+
+// The `i`th of N rays or hits, which lie member by member. Embree's own accessors are C++.
+static void pick(const void *of_n, unsigned n, unsigned i, void *out, size_t size)
+{
+    for (size_t at = 0; at < size; at += sizeof(float))
+        memcpy((char *) out + at, (const char *) of_n + at * n + i * sizeof(float), sizeof(float));
+}
+
+// A stream of rays comes in packets, of which not all are active.
 static void filter(const struct RTCFilterFunctionNArguments *args)
 {
-    const target *t = args->geometryUserPtr;
-    const struct RTCRay *ray = (const struct RTCRay *) args->ray;
-    const struct RTCHit *hit = (const struct RTCHit *) args->hit;
-    query *q = (query *) args->context;
-    if (!lies_ahead(t, ray, hit->primID) || masked(t, hit)) {
-        args->valid[0] = 0;
-    } else if (q->all) {
-        const ag_hit found = { .distance = ray->tfar,
-                               .instance = (int) (t->instance - t->scene->instances),
-                               .triangle = hit->primID,
-                               .barycentric = { hit->u, hit->v } };
-        note_hit(q, &found);
-        args->valid[0] = 0;
+    for (unsigned i = 0; i < args->N; ++i) {
+        struct RTCRay ray;
+        struct RTCHit hit;
+        if (args->valid[i] != -1)
+            continue;
+        pick(args->ray, args->N, i, &ray, offsetof(struct RTCRay, flags));
+        pick(args->hit, args->N, i, &hit, offsetof(struct RTCHit, instID));
+        if (lets_pass((query *) args->context, args->geometryUserPtr, &ray, &hit))
+            args->valid[i] = 0;
     }
 }
 
@@ -370,6 +389,30 @@ bool ag_rays_blocked(const ag_rays *rays, const float from[3], const float direc
     rtcOccluded1(rays->scene, &q.context, &ray);
 #endif
     return ray.tfar < 0;
+}
+
+void ag_rays_blocked_many(const ag_rays *rays, const ag_ray *cast, int count, bool *blocked)
+{
+#if RTC_VERSION_MAJOR >= 4 // has no streams
+    for (int i = 0; i < count; ++i)
+        blocked[i] =
+            ag_rays_blocked(rays, cast[i].from, cast[i].direction, cast[i].tnear, cast[i].tfar);
+#else
+    enum { STREAM = 128 };
+    struct RTCRay stream[STREAM];
+    query q = { .all = false };
+    rtcInitIntersectContext(&q.context);
+    for (int first = 0; first < count; first += STREAM) {
+        const int here = count - first < STREAM ? count - first : STREAM;
+        for (int i = 0; i < here; ++i) {
+            const ag_ray *ray = cast + first + i;
+            stream[i] = ray_of(ray->from, ray->direction, ray->tnear, ray->tfar);
+        }
+        rtcOccluded1M(rays->scene, &q.context, stream, (unsigned) here, sizeof *stream);
+        for (int i = 0; i < here; ++i)
+            blocked[first + i] = stream[i].tfar < 0;
+    }
+#endif
 }
 
 int ag_rays_all(const ag_rays *rays, const float from[3], const float direction[3], float tfar,

@@ -152,6 +152,9 @@ static void find_moving(ag_scene_private *p)
     for (size_t i = 0; i < p->instances.count; i++)
         instances[i].moving =
             skins[i] >= 0 ? skin_moves(p, skins[i]) : nodes[instances[i].node].moving;
+    ag_skinned *skinned = p->skinned.data;
+    for (size_t i = 0; i < p->skinned.count; i++)
+        skinned[i].moving = skin_moves(p, skinned[i].skin);
     const int *at = p->light_nodes.data;
     for (size_t i = 0; i < p->lights.count; i++)
         ((ag_light *) p->lights.data)[i].moving = at[i] >= 0 && nodes[at[i]].moving;

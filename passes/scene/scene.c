@@ -202,7 +202,7 @@ static void scene_bounds(ag_scene *s)
 void ag_scene_follow(ag_scene *s, bool first)
 {
     bool moved = follow_instances(s->priv, first);
-    moved = ag_skin_all(s->priv) || moved;
+    moved = ag_skin_all(s->priv, first) || moved;
     bool lit = follow_lights(s->priv, first);
     follow_cameras(s->priv, first);
     if (moved || first)

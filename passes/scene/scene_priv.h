@@ -71,6 +71,7 @@ typedef struct ag_rest_vertex {
 // One skinned primitive of the scene.
 typedef struct ag_skinned {
     int primitive, skin;
+    bool moving;       // some joint does
     size_t first_rest; // of `rest`; as many as the primitive has vertices
 } ag_skinned;
 
@@ -146,8 +147,8 @@ void ag_animate(ag_scene_private *p, double seconds);
 void ag_worlds_update(ag_scene_private *p, bool first);
 // Everything that hangs on nodes, after their worlds.
 void ag_scene_follow(ag_scene *scene, bool first);
-// Rewrites the vertices of every skinned primitive; true if any changed.
-bool ag_skin_all(ag_scene_private *p);
+// Rewrites the vertices of every skinned primitive that moves, `first` of all; true if any changed.
+bool ag_skin_all(ag_scene_private *p, bool first);
 void ag_primitive_bounds(const ag_scene_private *p, ag_primitive *primitive);
 // Pointers and counts of the public arrays, from the private ones.
 void ag_scene_publish(ag_scene *scene);

@@ -65,11 +65,12 @@ static bool skin_primitive(ag_scene_private *p, const ag_skinned *skinned)
     return changed;
 }
 
-bool ag_skin_all(ag_scene_private *p)
+bool ag_skin_all(ag_scene_private *p, bool first)
 {
     bool changed = false;
     const ag_skinned *skinned = p->skinned.data;
     for (size_t i = 0; i < p->skinned.count; i++)
-        changed = skin_primitive(p, &skinned[i]) || changed;
+        if (first || skinned[i].moving)
+            changed = skin_primitive(p, &skinned[i]) || changed;
     return changed;
 }

@@ -7,6 +7,8 @@
 #include <stdarg.h>
 
 #include <cmocka.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 
 static char message[1024];
@@ -343,6 +345,161 @@ static void moving_instances_can_be_left_out(void **state)
     ag_scene_destroy(scene);
 }
 
+// ---- streams ------------------------------------------------------------------------
+
+enum { STREAM_RAYS = 4099 };
+
+// A sphere with 60 quads in it, every other one with holes.
+static ag_scene *cluttered_scene(void)
+{
+    uint32_t random = 7;
+    shapes s = shapes_begin(&logger);
+    const int mask = mask_material(&s);
+    shapes_sphere_inside(&s, -1, 3, 4);
+    for (int i = 0; i < 60; ++i) {
+        float corner[3], a[3], b[3];
+        random_direction(&random, corner);
+        random_direction(&random, a);
+        random_direction(&random, b);
+        shapes_quad(&s, s.node, i % 2 ? mask : -1, corner, a, b);
+    }
+    return shapes_end(&s);
+}
+
+// Some at vertices and edges, some from a surface, some that end or begin on one.
+static void many_rays(const ag_scene *scene, ag_ray *out)
+{
+    uint32_t random = 8;
+    for (int i = 0; i < STREAM_RAYS; ++i) {
+        ag_ray *ray = out + i;
+        const size_t at = (size_t) i % (scene->index_count - 1);
+        const float *p = scene->vertices[scene->indices[at]].position;
+        const float *q = scene->vertices[scene->indices[at + 1]].position;
+        random_direction(&random, ray->from);
+        random_direction(&random, ray->direction);
+        ray->tnear = i % 7 == 0 ? random_float(&random) : 0;
+        ray->tfar = i % 5 == 0 ? far_away : 4 * random_float(&random);
+        for (int k = 0; k < 3 && i % 3 > 0; ++k)
+            ray->direction[k] = (i % 3 == 1 ? p[k] : 0.5f * (p[k] + q[k])) - ray->from[k];
+        if (i % 11 == 0)
+            memcpy(ray->from, p, sizeof ray->from);
+        if (i % 11 == 1)
+            ray->tfar = 1;
+    }
+}
+
+static void a_stream_answers_as_its_rays_do_alone(void **state)
+{
+    (void) state;
+    static const int counts[] = { 0, 1, 2, 3, 7, 127, 128, 129, STREAM_RAYS };
+    static ag_ray cast[STREAM_RAYS];
+    static bool blocked[STREAM_RAYS + 1];
+    ag_scene *scene = cluttered_scene();
+    ag_rays *rays = rays_of(scene);
+    many_rays(scene, cast);
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; ++c) {
+        int some = 0;
+        memset(blocked, 2, sizeof blocked);
+        ag_rays_blocked_many(rays, cast, counts[c], blocked);
+        for (int i = 0; i < counts[c]; ++i) {
+            const ag_ray *ray = cast + i;
+            const bool alone =
+                ag_rays_blocked(rays, ray->from, ray->direction, ray->tnear, ray->tfar);
+            if (blocked[i] != alone)
+                fail_msg("ray %d of %d is %sblocked alone", i, counts[c], alone ? "" : "not ");
+            some += alone;
+        }
+        unsigned char after;
+        memcpy(&after, blocked + counts[c], 1);
+        assert_int_equal(after, 2); // nothing beyond is touched
+        if (counts[c] == STREAM_RAYS)
+            assert_in_range(some, STREAM_RAYS / 5, STREAM_RAYS * 4 / 5);
+    }
+    ag_rays_destroy(rays);
+    ag_scene_destroy(scene);
+}
+
+static void a_stream_sees_through_masked_texels(void **state)
+{
+    (void) state;
+    enum { COUNT = 200 };
+    ag_ray cast[COUNT];
+    bool blocked[COUNT];
+    shapes s = shapes_begin(&logger);
+    unit_quad(&s, mask_material(&s), 1);
+    ag_scene *scene = shapes_end(&s);
+    ag_rays *rays = rays_of(scene);
+    for (int i = 0; i < COUNT; ++i) // the left half is a hole
+        cast[i] = (ag_ray){ { ((float) i + 0.5f) / COUNT, 0.4f, 2 }, { 0, 0, -1 }, 0, far_away };
+    ag_rays_blocked_many(rays, cast, COUNT, blocked);
+    for (int i = 0; i < COUNT; ++i)
+        assert_int_equal(blocked[i], i >= COUNT / 2);
+    ag_rays_destroy(rays);
+    ag_scene_destroy(scene);
+}
+
+typedef struct beside {
+    const ag_rays *rays;
+    const ag_ray *cast;
+    atomic_bool go_on;
+    int rounds, differences;
+} beside;
+
+static void *cast_beside(void *user)
+{
+    static bool first[STREAM_RAYS], again[STREAM_RAYS];
+    beside *b = user;
+    ag_rays_blocked_many(b->rays, b->cast, STREAM_RAYS, first);
+    while (atomic_load(&b->go_on) || b->rounds < 4) {
+        ag_hit hit;
+        ag_rays_blocked_many(b->rays, b->cast, STREAM_RAYS, again);
+        b->differences += memcmp(first, again, sizeof first) != 0;
+        for (int i = 0; i < 100; ++i)
+            (void) ag_rays_nearest(b->rays, b->cast[i].from, b->cast[i].direction, 0, 9, &hit);
+        ++b->rounds;
+    }
+    return NULL;
+}
+
+// Half of the quads move, and the ray's quads share materials with them. To be run under the
+// thread sanitizer too.
+static void static_casts_may_run_beside_set_time(void **state)
+{
+    (void) state;
+    static ag_ray cast[STREAM_RAYS];
+    uint32_t random = 9;
+    shapes s = shapes_begin(&logger);
+    const int mask = mask_material(&s);
+    const int node = ag_builder_node(s.builder, &(ag_node_desc){ .name = "moves", .parent = -1 });
+    const float times[] = { 0, 1 }, values[] = { 0, 0, 0, 1, 0, 0 };
+    const ag_channel_desc channel = {
+        .node = node, .key_count = 2, .times = times, .values = values
+    };
+    for (int i = 0; i < 40; ++i) {
+        float corner[3], a[3], b[3];
+        random_direction(&random, corner);
+        random_direction(&random, a);
+        random_direction(&random, b);
+        shapes_quad(&s, i % 2 ? node : s.node, mask, corner, a, b);
+    }
+    ag_builder_channel(s.builder, &channel);
+    ag_scene *scene = shapes_end(&s);
+    const ag_rays_desc desc = { .log = &logger, .scene = scene, .static_only = true };
+    ag_rays *rays;
+    assert_int_equal(ag_rays_create(&desc, &rays), FG_OK);
+    many_rays(scene, cast);
+    beside b = { .rays = rays, .cast = cast, .go_on = true };
+    pthread_t thread;
+    assert_int_equal(pthread_create(&thread, NULL, cast_beside, &b), 0);
+    for (int i = 0; i < 2000; ++i)
+        ag_scene_set_time(scene, 0.001 * i);
+    atomic_store(&b.go_on, false);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    assert_int_equal(b.differences, 0);
+    ag_rays_destroy(rays);
+    ag_scene_destroy(scene);
+}
+
 static void an_empty_scene_hits_nothing(void **state)
 {
     (void) state;
@@ -381,6 +538,9 @@ int main(void)
         cmocka_unit_test(a_closed_mesh_has_no_leak),
         cmocka_unit_test(far_from_the_origin_nothing_is_lost),
         cmocka_unit_test(moving_instances_can_be_left_out),
+        cmocka_unit_test(a_stream_answers_as_its_rays_do_alone),
+        cmocka_unit_test(a_stream_sees_through_masked_texels),
+        cmocka_unit_test(static_casts_may_run_beside_set_time),
         cmocka_unit_test(an_empty_scene_hits_nothing),
         cmocka_unit_test(mistakes_are_refused),
     };

@@ -309,6 +309,39 @@ static void one_primitive_with_two_skins_becomes_two(void **state)
     ag_scene_destroy(s);
 }
 
+// Marks that are still there were not written over: another thread may read there.
+static void what_does_not_move_is_not_even_written(void **state)
+{
+    (void) state;
+    int arm, joints[2];
+    ag_builder *b = arm_builder(NULL, &arm, joints);
+    int away[2] = { add_node(b, -1, -5, 0, 0), add_node(b, -1, -5, 1, 0) };
+    int skins[2] = { ag_builder_skin(b, joints, 2, inverse_bind),
+                     ag_builder_skin(b, away, 2, inverse_bind) };
+    int node = add_node(b, -1, 0, 0, 50);
+    for (int i = 0; i < 2; i++)
+        ag_builder_show(b, node, arm, skins[i]);
+    ag_builder_show(b, node, arm, -1);
+    ag_scene *s = build(b);
+    for (int i = 0; i < 3; i++) {
+        const ag_primitive *p = &s->primitives[s->instances[i].primitive];
+        assert_int_equal(s->instances[i].moving, i == 0);
+        ((ag_instance *) s->instances)[i].world[0] = 42;
+        ((ag_vertex *) s->vertices)[p->first_vertex + 4].position[0] = 43;
+    }
+    const ag_scene before = *s;
+    ag_scene_set_time(s, 0.5);
+    for (int i = 0; i < 3; i++) {
+        const ag_primitive *p = &s->primitives[s->instances[i].primitive];
+        assert_int_equal(s->instances[i].world[0] == 42, i > 0);
+        assert_int_equal(s->vertices[p->first_vertex + 4].position[0] == 43, i > 0);
+    }
+    assert_ptr_equal(s->instances, before.instances);
+    assert_ptr_equal(s->primitives, before.primitives);
+    assert_ptr_equal(s->vertices, before.vertices);
+    ag_scene_destroy(s);
+}
+
 static void a_joint_that_the_skin_has_not_is_refused(void **state)
 {
     (void) state;
@@ -340,6 +373,7 @@ int main(void)
         cmocka_unit_test(absurd_times_are_time_zero),
         cmocka_unit_test(skinned_vertices_follow_their_joints_into_the_world),
         cmocka_unit_test(one_primitive_with_two_skins_becomes_two),
+        cmocka_unit_test(what_does_not_move_is_not_even_written),
         cmocka_unit_test(a_joint_that_the_skin_has_not_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,13 +9,15 @@ FG_BEGIN
 // Ray casts against a scene at its current time, on the CPU, by Embree. Exact:
 // RTC_SCENE_FLAG_ROBUST, double-precision origin offset, alpha masks honoured.
 //
-// Thread: casts may run on any number of threads at once; create and destroy not.
+// Thread: casts may run on any number of threads at once; create and destroy not. With static_only
+//         they may run while another thread calls ag_scene_set_time(), which leaves alone what
+//         does not move; while it adds lights or cameras, or builds or destroys the scene, never.
 typedef struct ag_rays ag_rays;
 
 typedef struct ag_rays_desc {
     const fg_log *log;
     const ag_scene *scene; // Borrowed while this lives; casts see it as it stands now, so
-                           // make new rays after ag_scene_set_time().
+                           // make new rays after ag_scene_set_time(), unless static_only.
     double origin[3];      // Subtracted from all positions before they become floats: the camera.
     bool static_only;      // leave moving instances out
     int threads;           // for building; 0: all
@@ -46,6 +48,13 @@ FG_API bool ag_rays_nearest(const ag_rays *rays, const float from[3], const floa
 // Whether anything lies in (tnear, tfar).
 FG_API bool ag_rays_blocked(const ag_rays *rays, const float from[3], const float direction[3],
                             float tnear, float tfar);
+
+// The same for many rays at once, in one stream where Embree has them. Shapes: blocked [count].
+typedef struct ag_ray {
+    float from[3], direction[3];
+    float tnear, tfar;
+} ag_ray;
+FG_API void ag_rays_blocked_many(const ag_rays *rays, const ag_ray *cast, int count, bool *blocked);
 
 // All hits in (0, tfar), nearest first, at most `max`; for techniques that leave visibility
 // out. Returns how many there are, which may exceed `max`.

@@ -18,7 +18,8 @@ FG_BEGIN
 //
 // Units: metres, right-handed, +Y up; linear RGB (Rec. 709), radiometric.
 // The arrays are the scene's own and read-only to others. ag_scene_set_time()
-// rewrites what can move, in place: worlds, lights, cameras, skinned vertices.
+// rewrites what can move, in place: worlds, lights, cameras, skinned vertices;
+// what does not move it leaves alone, so that other threads may read it meanwhile.
 
 typedef struct ag_vertex { // interleaved as the GPU reads it: 64 bytes
     float position[3];
