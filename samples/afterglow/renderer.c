@@ -192,6 +192,12 @@ fg_status renderer_resize(renderer *r, int width, int height)
     return FG_OK;
 }
 
+void renderer_set_camera(renderer *r, const ag_camera *camera)
+{
+    r->camera = *camera;
+    r->follows = false;
+}
+
 // ---- declaring ----------------------------------------------------------------------------
 
 static fg_status never_run(const fg_run *run, void *user)

@@ -56,6 +56,8 @@ FG_NODISCARD fg_status renderer_set_plugin(renderer *r, const gi_plugin *plugin,
 // What can be read back of the next frames; as `layers` of the descriptor.
 FG_NODISCARD fg_status renderer_set_layers(renderer *r, unsigned layers);
 FG_NODISCARD fg_status renderer_resize(renderer *r, int width, int height);
+// The next frames' camera; copied. The scene's is no longer followed.
+void renderer_set_camera(renderer *r, const ag_camera *camera);
 
 // Sets the scene to `time` and runs one frame. Never waits for the GPU.
 FG_NODISCARD fg_status renderer_frame(renderer *r, double time);

@@ -377,6 +377,7 @@ fg_status report_html(const fg_log *log, const char *folder, const cJSON *doc)
         if (status == FG_OK)
             status = write_scene(&p, scene, number++);
     }
+    study_tables_html(p.f, doc);
     fprintf(p.f, "<script>\n%s</script>\n</body></html>\n", (const char *) report_js);
     const fg_status written = file_end(log, &out, status == FG_OK);
     return status != FG_OK ? status : written;

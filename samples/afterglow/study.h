@@ -10,14 +10,25 @@
 //
 //   { "scene", "name", "title", "index", "x": { "parameter", "label" } or null, "baselines": [],
 //     "points": [ run records with "curve", "x", "stages": [ { "stage", "ms" } ],
-//                 "errors": [one per baseline; null where that could not be had],
-//                 along a path "path": { "seconds": [], "ms": [] } } ] }
+//                 "errors": [one per baseline; null where that could not be had; along a path the
+//                            mean over the frames that are compared],
+//                 along a path "path": { "seconds": [], "ms": [],
+//                     "counters": { name: [] }, "errors": [one per baseline: []] }, with null where
+//                     there is no figure of a frame } ] }
 
-enum { STUDY_CURVES = 8, STUDY_VALUES = 12, STUDY_BASELINES = 3, STUDY_PANELS = 3 };
+enum {
+    STUDY_CURVES = 8,
+    STUDY_VALUES = 12,
+    STUDY_BASELINES = 3,
+    STUDY_PANELS = 3,
+    STUDY_COUNTERS = 4,
+};
 
 typedef struct study_curve {
     const char *setting; // "isr source=regular vpls=256": a plugin, then what is set
     const char *label;   // what the figure calls it
+    double speed;        // along a path, of the animation's clock; 0: 1
+    double scale;        // of the frame's edges; 0: 1
 } study_curve;
 
 typedef enum panel_kind {
@@ -25,15 +36,25 @@ typedef enum panel_kind {
     PANEL_LINES,  // over x
     PANEL_BARS,   // one group a curve, one bar a value of x
     PANEL_STAGES, // one bar a curve, stacked by stage
-    PANEL_PATH,   // frame time along the animation
+    PANEL_PATH,   // along the animation
 } panel_kind;
 
-enum { PANEL_MS = -1 };
+enum { PANEL_MS = -1, PANEL_COUNTER = -2 };
 typedef struct study_panel {
     panel_kind kind;
-    int of; // LINES and BARS: error against this baseline, or PANEL_MS
+    int of; // all but STAGES: error against this baseline, PANEL_MS; PATH: PANEL_COUNTER
     const char *caption;
+    const char *counter, *label; // of PANEL_COUNTER, and what the axis says
 } study_panel;
+
+// Frames along the scene's animation.
+typedef struct study_path {
+    int frames[2];   // quick, full; 0: no path
+    double rate;     // frames a second of the animation; 0: the frames are once through all of it
+    bool tour;       // what stands still is moved: see tour
+    int compared[2]; // quick, full: frames with a picture that is compared, the last one among them
+    const char *counters[STUDY_COUNTERS + 1]; // that are noted at every frame
+} study_path;
 
 // Arrays end at the first zero.
 typedef struct study {
@@ -46,7 +67,8 @@ typedef struct study {
     // The name of a truth; a setting as a curve's; "self KEY=VALUE...": the curve's but for that.
     const char *baselines[STUDY_BASELINES + 1];
     study_panel panels[STUDY_PANELS + 1];
-    bool path; // frames along the scene's animation; no pictures are compared
+    study_path path;
+    bool joined; // scenes are rows of one table at the end of the page, too
 } study;
 
 extern const study studies[]; // ends at a NULL name
@@ -78,8 +100,30 @@ FG_NODISCARD fg_status studies_measure(const studies_desc *d);
 // all else of the frame.
 void study_add_stages(cJSON *record);
 extern const char *const study_stages[]; // ends at NULL
+double study_stage_ms(const cJSON *point, const char *stage);
+// Whether any point spends time there.
+bool study_has_stage(const cJSON *points, const char *stage);
 // Of a point: the technique's own stages but for the reflective shadow maps, which all share.
 double study_own_ms(const cJSON *point);
+
+// ---- along a path ----------------------------------------------------------------------------
+
+// Where light and camera are. What does not move by itself is moved, both to come back after 8 s:
+// the camera turns 0.15 rad to either side, the first light, where none moves, goes around a level
+// circle an eighth as wide as the scene (a directional one turns 0.2 rad to either side).
+typedef struct tour {
+    host *h;
+    bool on; // else the scene's own animation alone
+    bool moves_light, moves_camera;
+    ag_light light;
+    ag_camera camera;
+    double radius; // m
+} tour;
+
+tour tour_begin(host *h, bool on);
+// Before renderer_frame(r, time).
+FG_NODISCARD fg_status tour_pose(const tour *t, renderer *r, double time);
+FG_NODISCARD fg_status tour_end(const tour *t); // all is where it was
 
 // ---- pictures of errors ----------------------------------------------------------------------
 
@@ -92,10 +136,10 @@ typedef struct baselines {
 } baselines;
 
 void baselines_finish(baselines *b);
-// The picture of baseline `text` for a point: the curve's setting with `x` set to `value`.
-// NULL where it cannot be had, with a note.
-FG_NODISCARD fg_status baselines_get(baselines *b, const char *text, const char *setting,
-                                     const image **out);
+// The picture of baseline `text`, at `time` of the tour, for a point: the curve's setting with `x`
+// set to `value`. NULL where it cannot be had, with a note.
+FG_NODISCARD fg_status baselines_get(baselines *b, const tour *t, double time, const char *text,
+                                     const char *setting, const image **out);
 // The truth of that name; -1: none.
 int study_truth(const char *name);
 // The plugin at "PLUGIN KEY=VALUE...". False where that cannot be had, with a note.
@@ -113,5 +157,7 @@ FG_NODISCARD fg_status study_plots(const fg_log *log, const char *folder, cJSON 
 // The studies of a scene; `prefix` goes before the ids of its pictures.
 FG_NODISCARD fg_status study_html(FILE *f, const fg_log *log, const char *folder, const cJSON *doc,
                                   const char *scene, const char *prefix);
+// Tables of all scenes, of the studies that are joined.
+void study_tables_html(FILE *f, const cJSON *doc);
 
 #endif // STUDY_H

@@ -58,14 +58,17 @@ void baselines_finish(baselines *b)
     *b = (baselines){ 0 };
 }
 
-static fg_status render(const studies_desc *d, const setting *s, image *out)
+static fg_status render(const studies_desc *d, const tour *t, double time, const setting *s,
+                        image *out)
 {
     renderer *r = NULL;
     renderer_desc desc = host_renderer_desc(d->h, s, d->width, d->height);
     desc.layers = 1u << LAYER_INDIRECT;
     fg_status status = host_renderer(d->h, &desc, &r);
     if (status == FG_OK)
-        status = renderer_frame(r, 0);
+        status = tour_pose(t, r, time);
+    if (status == FG_OK)
+        status = renderer_frame(r, time);
     if (status == FG_OK)
         status = renderer_read(r, LAYER_INDIRECT, out);
     renderer_destroy(r);
@@ -92,29 +95,38 @@ static image *append(baselines *b, const char *key)
     return &b->pictures[b->count++];
 }
 
-fg_status baselines_get(baselines *b, const char *text, const char *setting_text, const image **out)
+static fg_status make(const baselines *b, const tour *t, double time, const char *text,
+                      image *picture)
 {
-    char key[512];
     const char *why;
     setting s;
+    fg_status status = FG_OK;
+    cli_progress(text, 0);
+    if (study_setting(b->d, text, &s) && host_serves(b->d->h, s.plugin, &why))
+        status = render(b->d, t, time, &s, picture);
+    setting_finish(&s);
+    cli_progress(text, 1);
+    return status;
+}
+
+fg_status baselines_get(baselines *b, const tour *t, double time, const char *text,
+                        const char *setting_text, const image **out)
+{
+    char whole[400], key[512];
     if (!strncmp(text, "self ", 5))
-        snprintf(key, sizeof key, "%s %s", setting_text, text + 5);
+        snprintf(whole, sizeof whole, "%s %s", setting_text, text + 5);
     else
-        snprintf(key, sizeof key, "%s", text);
+        snprintf(whole, sizeof whole, "%s", text);
+    snprintf(key, sizeof key, "%s at %.9g s%s", whole, time, t->on ? " of the tour" : "");
     int i = 0;
     while (i < b->count && strcmp(b->keys[i], key) != 0)
         ++i;
     fg_status status = FG_OK;
     if (i == b->count) {
         image *picture = append(b, key);
-        if (!picture)
-            return FG_ERR_MEMORY;
-        cli_progress(key, 0);
-        if (study_setting(b->d, key, &s) && host_serves(b->d->h, s.plugin, &why))
-            status = render(b->d, &s, picture);
-        setting_finish(&s);
-        cli_progress(key, 1);
+        status = picture ? make(b, t, time, whole, picture) : FG_ERR_MEMORY;
     }
-    *out = b->pictures[i].rgb ? &b->pictures[i] : NULL;
+    if (status == FG_OK)
+        *out = b->pictures[i].rgb ? &b->pictures[i] : NULL;
     return status;
 }

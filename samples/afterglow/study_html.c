@@ -7,7 +7,12 @@
 
 // ---- tables ----------------------------------------------------------------------------------
 
-static void write_head(FILE *f, const study *s)
+static bool shows_stage(const study *s, const cJSON *points, const char *stage)
+{
+    return s->panels[0].kind == PANEL_STAGES && study_has_stage(points, stage);
+}
+
+static void write_head(FILE *f, const study *s, const cJSON *points)
 {
     fputs("<div class=\"scroll\"><table><thead><tr><th class=\"text\">curve</th>", f);
     if (s->x) {
@@ -15,8 +20,8 @@ static void write_head(FILE *f, const study *s)
         html_text(f, s->x);
         fputs("</th>", f);
     }
-    if (s->panels[0].kind == PANEL_STAGES)
-        for (int i = 0; study_stages[i]; ++i)
+    for (int i = 0; study_stages[i]; ++i)
+        if (shows_stage(s, points, study_stages[i]))
             fprintf(f, "<th>%s</th>", study_stages[i]);
     fputs("<th>frame</th><th>after the RSM</th>", f);
     for (int i = 0; s->baselines[i]; ++i) {
@@ -34,9 +39,9 @@ static void write_x(FILE *f, const cJSON *point)
         html_cell(f, json_text(point, "x"));
 }
 
-static void write_row(FILE *f, const study *s, const cJSON *point)
+static void write_row(FILE *f, const study *s, const cJSON *points, const cJSON *point)
 {
-    const cJSON *errors = cJSON_GetObjectItem(point, "errors"), *stage;
+    const cJSON *errors = cJSON_GetObjectItem(point, "errors");
     const cJSON *counters = cJSON_GetObjectItem(point, "counters");
     const cJSON *size = cJSON_GetObjectItem(point, "size");
     const double pixels = cJSON_GetNumberValue(cJSON_GetArrayItem(size, 0)) *
@@ -45,11 +50,9 @@ static void write_row(FILE *f, const study *s, const cJSON *point)
     html_cell(f, json_text(point, "curve"));
     if (s->x)
         write_x(f, point);
-    if (s->panels[0].kind == PANEL_STAGES)
-        cJSON_ArrayForEach(stage, cJSON_GetObjectItem(point, "stages"))
-        {
-            html_number(f, json_number(stage, "ms"), "%.2f");
-        }
+    for (int i = 0; study_stages[i]; ++i)
+        if (shows_stage(s, points, study_stages[i]))
+            html_number(f, study_stage_ms(point, study_stages[i]), "%.2f");
     html_number(f, json_number(cJSON_GetObjectItem(point, "frame_ms"), "median"), "%.2f");
     html_number(f, study_own_ms(point), "%.2f");
     for (int i = 0; s->baselines[i]; ++i) {
@@ -66,13 +69,13 @@ static void write_row(FILE *f, const study *s, const cJSON *point)
 
 static void write_table(FILE *f, const study *s, const cJSON *item)
 {
-    const cJSON *point;
+    const cJSON *points = cJSON_GetObjectItem(item, "points"), *point;
     const bool open = s->panels[0].kind == PANEL_STAGES;
     fprintf(f, "<details%s><summary>Figures, times in ms</summary>\n", open ? " open" : "");
-    write_head(f, s);
-    cJSON_ArrayForEach(point, cJSON_GetObjectItem(item, "points"))
+    write_head(f, s, points);
+    cJSON_ArrayForEach(point, points)
     {
-        write_row(f, s, point);
+        write_row(f, s, points, point);
     }
     fputs("</tbody></table></div>\n", f);
     if (s->baselines[0]) {

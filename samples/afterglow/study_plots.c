@@ -49,6 +49,8 @@ static void write_number(FILE *f, double value)
 
 static const char *ylabel(const study_panel *p)
 {
+    if (p->of == PANEL_COUNTER)
+        return p->label;
     return p->of == PANEL_MS ? "frame, median ms" : "RMSE of indirect light, %";
 }
 
@@ -181,6 +183,8 @@ static void write_stages(FILE *f, const study *s, const cJSON *points)
                "set key outside right top invert\nset yrange [0:*]\nset ylabel 'ms of a frame'\n"
                "plot ");
     for (int i = 0; study_stages[i]; ++i) {
+        if (i && !study_has_stage(points, study_stages[i]))
+            continue;
         fprintf(f, "%s$bars using %d%s lc rgb '%s' title ", i ? ", " : "", i + 2,
                 i ? "" : ":xtic(1)", i ? plot_colour(i - 1) : "#cccccc");
         plot_text(f, study_stages[i]);
@@ -190,40 +194,57 @@ static void write_stages(FILE *f, const study *s, const cJSON *points)
 
 // ---- along the animation ---------------------------------------------------------------------
 
-static void write_walk(FILE *f, const cJSON *points, const char *label, int number)
+// A figure a frame, null where there is none.
+static const cJSON *trace_of(const cJSON *point, const study_panel *p)
 {
-    const cJSON *point, *ms;
+    const cJSON *path = cJSON_GetObjectItem(point, "path");
+    if (p->of == PANEL_MS)
+        return cJSON_GetObjectItem(path, "ms");
+    if (p->of == PANEL_COUNTER)
+        return cJSON_GetObjectItem(cJSON_GetObjectItem(path, "counters"), p->counter);
+    return cJSON_GetArrayItem(cJSON_GetObjectItem(path, "errors"), p->of);
+}
+
+static void write_walk(FILE *f, const cJSON *points, const char *label, const study_panel *p,
+                       int number)
+{
+    const double unit = p->of >= 0 ? 100 : 1;
+    const cJSON *point, *value;
     fprintf(f, "$c%d << END_OF_DATA\n", number);
     cJSON_ArrayForEach(point, points)
     {
         const cJSON *path = cJSON_GetObjectItem(point, "path");
-        const cJSON *seconds = cJSON_GetObjectItem(path, "seconds");
-        int i = 0;
+        const cJSON *second = cJSON_GetArrayItem(cJSON_GetObjectItem(path, "seconds"), 0);
         if (!of_curve(point, label))
             continue;
-        cJSON_ArrayForEach(ms, cJSON_GetObjectItem(path, "ms"))
+        cJSON_ArrayForEach(value, trace_of(point, p))
         {
-            write_number(f, cJSON_GetNumberValue(cJSON_GetArrayItem(seconds, i++)));
-            write_number(f, cJSON_GetNumberValue(ms));
-            fputc('\n', f);
+            if (second && cJSON_IsNumber(value)) {
+                write_number(f, second->valuedouble);
+                write_number(f, unit * value->valuedouble);
+                fputc('\n', f);
+            }
+            second = second ? second->next : NULL;
         }
     }
     fprintf(f, "NaN NaN\nEND_OF_DATA\n");
 }
 
-static void write_path(FILE *f, const study *s, const cJSON *points)
+static void write_path(FILE *f, const study *s, const study_panel *p, const cJSON *points)
 {
     int drawn = 0;
-    fprintf(f, "set key outside right top\nset xlabel 'time of the animation, s'\n"
-               "set autoscale xfix\nset ylabel 'frame, ms'\nset yrange [0:*]\n");
+    fprintf(f,
+            "set key outside right top\nset xlabel 'time of the animation, s'\n"
+            "set autoscale xfix\nset ylabel '%s'\nset yrange [0:*]\n",
+            ylabel(p));
     for (int i = 0; s->curves[i].label; ++i)
-        write_walk(f, points, s->curves[i].label, i);
+        write_walk(f, points, s->curves[i].label, p, i);
     fprintf(f, "plot ");
     for (int i = 0; s->curves[i].label; ++i) {
         if (!has_curve(points, s->curves[i].label))
             continue;
-        fprintf(f, "%s$c%d using 1:2 with lines lw 1.8 lc rgb '%s' title ", drawn++ ? ", " : "", i,
-                plot_colour(i));
+        fprintf(f, "%s$c%d using 1:2 with %s lw 1.8 lc rgb '%s' title ", drawn++ ? ", " : "", i,
+                p->of >= 0 ? "linespoints pt 7 ps 0.5" : "lines", plot_colour(i));
         plot_text(f, s->curves[i].label);
     }
     fputc('\n', f);
@@ -231,13 +252,26 @@ static void write_path(FILE *f, const study *s, const cJSON *points)
 
 // ---- files -----------------------------------------------------------------------------------
 
+static bool has_number(const cJSON *list)
+{
+    const cJSON *item;
+    cJSON_ArrayForEach(item, list)
+    {
+        if (cJSON_IsNumber(item))
+            return true;
+    }
+    return false;
+}
+
 // Whether any point has what the panel shows: gnuplot refuses to draw nothing.
 static bool drawable(const study_panel *p, const cJSON *points)
 {
     const cJSON *point;
     cJSON_ArrayForEach(point, points)
     {
-        if (p->of == PANEL_MS ? frame_ms(point) > 0 : isfinite(error_of(point, p->of, false)))
+        if (p->kind == PANEL_PATH ? has_number(trace_of(point, p))
+            : p->of == PANEL_MS   ? frame_ms(point) > 0
+                                  : isfinite(error_of(point, p->of, false)))
             return true;
     }
     return false;
@@ -262,7 +296,7 @@ static fg_status draw(const fg_log *log, const char *folder, cJSON *doc, const c
     case PANEL_LINES: write_lines(out.out.stream, s, p, points); break;
     case PANEL_BARS: write_bars(out.out.stream, s, p, points); break;
     case PANEL_STAGES: write_stages(out.out.stream, s, points); break;
-    case PANEL_PATH: write_path(out.out.stream, s, points); break;
+    case PANEL_PATH: write_path(out.out.stream, s, p, points); break;
     case PANEL_NONE: break;
     }
     return plot_end(log, &out, true, doc);

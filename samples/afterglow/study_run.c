@@ -1,29 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "study.h"
+#include "study_priv.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { MAX_POINTS = STUDY_CURVES * STUDY_VALUES, PATH_FULL = 48, PATH_QUICK = 12 };
-
-typedef struct point {
-    char text[256]; // the whole setting
-    int curve;
-    const char *value; // of x; NULL: none is swept
-} point;
-
-// A study on a scene while it is measured.
-typedef struct course {
-    const studies_desc *d;
-    const study *s;
-    baselines *baselines;
-    cJSON *points_json;
-    int count;
-    point points[MAX_POINTS];
-    job jobs[MAX_POINTS];
-    batch batch;
-} course;
 
 // ---- points ----------------------------------------------------------------------------------
 
@@ -87,8 +67,7 @@ static cJSON *x_json(const char *value)
     return cJSON_CreateString(value);
 }
 
-// Says of a record what point it is, and hands it over.
-static void take_point(course *c, int k, cJSON *record)
+void study_take_point(course *c, int k, cJSON *record)
 {
     cJSON_AddStringToObject(record, "curve", c->s->curves[c->points[k].curve].label);
     cJSON_AddItemToObject(record, "x", x_json(c->points[k].value));
@@ -98,15 +77,14 @@ static void take_point(course *c, int k, cJSON *record)
 
 // ---- pictures and times ----------------------------------------------------------------------
 
-// The picture that point k is compared with; NULL: there is none.
-static fg_status baseline_of(course *c, int k, int baseline, const image **out)
+fg_status study_baseline(course *c, int k, int baseline, double time, const image **out)
 {
     const char *text = c->s->baselines[baseline];
     const int truth = study_truth(text);
     *out = NULL;
     if (truth < 0)
-        return baselines_get(c->baselines, text, c->points[k].text, out);
-    if (c->d->truths)
+        return baselines_get(c->baselines, &c->tour, time, text, c->points[k].text, out);
+    if (c->d->truths && !c->s->path.frames[0]) // truths are of time 0
         *out = &c->d->truths->picture[truth];
     return FG_OK;
 }
@@ -122,7 +100,7 @@ static fg_status judge(void *user, int k, renderer *r, image *picture)
         const int truth = study_truth(name);
         const image *other;
         metrics e;
-        status = baseline_of(c, k, i, &other);
+        status = study_baseline(c, k, i, 0, &other);
         if (status == FG_OK && other)
             status = metrics_compare(&c->d->h->c->log, picture, other, &e);
         if (status != FG_OK || !other)
@@ -141,7 +119,7 @@ static fg_status make_baselines(course *c)
     for (int k = 0; k < c->count; ++k)
         for (int i = 0; c->s->baselines[i] && status == FG_OK; ++i) {
             const image *picture;
-            status = baseline_of(c, k, i, &picture);
+            status = study_baseline(c, k, i, 0, &picture);
         }
     return status;
 }
@@ -168,85 +146,10 @@ static fg_status run_points(course *c)
     if (status == FG_OK)
         status = batch_run(&c->batch);
     for (int k = 0; k < c->count && status == FG_OK; ++k) {
-        take_point(c, k, c->batch.records[k]);
+        study_take_point(c, k, c->batch.records[k]);
         c->batch.records[k] = NULL;
     }
     batch_finish(&c->batch);
-    return status;
-}
-
-// ---- along the animation ---------------------------------------------------------------------
-
-// Once through the animation. Slow settings go once, others as often as the budget says.
-static fg_status walk(course *c, renderer *r, int k, int frames, timing *t)
-{
-    const double duration = c->d->h->scene->duration;
-    fg_status status = host_switch(c->d->h, r, &c->jobs[k].s);
-    if (status == FG_OK)
-        status = renderer_frame(r, 0); // what creates and compiles is not to be timed
-    for (int i = 0; i < frames && status == FG_OK; ++i)
-        status = timing_frame(t, c->d->h->device, r, duration * i / frames);
-    return status;
-}
-
-// The median over the passes at each of the times.
-static cJSON *path_json(const course *c, const timing *t, int frames)
-{
-    enum { MAX_VISITS = 16 };
-    cJSON *path = cJSON_CreateObject();
-    cJSON *seconds = cJSON_AddArrayToObject(path, "seconds");
-    cJSON *ms = cJSON_AddArrayToObject(path, "ms");
-    for (int i = 0; i < frames; ++i) {
-        double values[MAX_VISITS];
-        int n = 0;
-        for (int at = i; at < t->count && n < MAX_VISITS; at += frames)
-            values[n++] = t->frame[at];
-        const double median = timing_quantile(values, n, 0.5);
-        cJSON_AddItemToArray(seconds, cJSON_CreateNumber(c->d->h->scene->duration * i / frames));
-        cJSON_AddItemToArray(ms, cJSON_CreateNumber(median));
-    }
-    return path;
-}
-
-// Setting by setting within each visit, so that a slow minute of the machine falls on all.
-static fg_status walk_all(course *c, renderer *r, int frames, timing *timings)
-{
-    const budget *b = c->d->budget;
-    fg_status status = FG_OK;
-    for (int k = 0; k < c->count && status == FG_OK; ++k)
-        status = timing_create(frames * b->visits, &timings[k]);
-    for (int v = 0; v < b->visits && status == FG_OK; ++v)
-        for (int k = 0; k < c->count && status == FG_OK; ++k) {
-            cli_progress("study path", (v + (double) k / c->count) / b->visits);
-            if (v && timings[k].frame[0] >= b->slow_ms)
-                continue;
-            status = walk(c, r, k, frames, &timings[k]);
-            const bool last = v + 1 == b->visits || timings[k].frame[0] >= b->slow_ms;
-            if (status != FG_OK || !last)
-                continue;
-            cJSON *record =
-                record_create(c->d->h, r, &c->jobs[k].s, &timings[k], c->d->width, c->d->height);
-            cJSON_AddItemToObject(record, "path", path_json(c, &timings[k], frames));
-            take_point(c, k, record);
-        }
-    cli_progress("study path", 1);
-    return status;
-}
-
-static fg_status run_path(course *c)
-{
-    const setting none = { 0 };
-    const int frames = c->d->full ? PATH_FULL : PATH_QUICK;
-    timing *timings = calloc((size_t) c->count + 1, sizeof *timings);
-    renderer *r = NULL;
-    const renderer_desc desc = host_renderer_desc(c->d->h, &none, c->d->width, c->d->height);
-    fg_status status = timings ? host_renderer(c->d->h, &desc, &r) : FG_ERR_MEMORY;
-    if (status == FG_OK)
-        status = walk_all(c, r, frames, timings);
-    for (int k = 0; k < c->count && timings; ++k)
-        timing_finish(&timings[k]);
-    free(timings);
-    renderer_destroy(r);
     return status;
 }
 
@@ -280,15 +183,20 @@ static fg_status run_study(const studies_desc *d, const study *s, baselines *b)
         return FG_ERR_MEMORY;
     cJSON *item = new_study(d, s);
     *c = (course){
-        .d = d, .s = s, .baselines = b, .points_json = cJSON_GetObjectItem(item, "points")
+        .d = d,
+        .s = s,
+        .baselines = b,
+        .tour = tour_begin(d->h, s->path.tour),
+        .points_json = cJSON_GetObjectItem(item, "points"),
     };
     fg_status status = FG_OK;
     make_points(c);
-    if (s->path && !(d->h->scene->duration > 0)) {
+    const bool path = s->path.frames[0] > 0;
+    if (path && !s->path.tour && !(d->h->scene->duration > 0)) {
         report_note(d->doc, "studies: nothing moves in %.200s: %s is left out", d->h->scene_name,
                     s->name);
     } else if (c->count) {
-        status = s->path ? run_path(c) : run_points(c);
+        status = path ? study_walk(c) : run_points(c);
         cJSON_AddItemToArray(cJSON_GetObjectItem(d->doc, "studies"), item);
         item = NULL;
     }

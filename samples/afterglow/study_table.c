@@ -53,7 +53,7 @@ const study studies[] = {
                     { "rsm vpls=256", "rsm vpls=256" } },
         .panels = { { PANEL_PATH, PANEL_MS,
                       "Once through the scene's animation; the median of several passes." } },
-        .path = true,
+        .path = { .frames = { 12, 48 } },
     },
     {
         .name = "initial",
@@ -129,6 +129,76 @@ const study studies[] = {
         .panels = { { PANEL_BARS, 0, "Against one bounce with shadows." },
                     { PANEL_BARS, PANEL_MS, "What visibility costs." } },
     },
+
+    // Laine, Saransaari, Kontkanen, Lehtinen, Aila. Incremental Instant Radiosity for Real-Time
+    // Indirect Illumination. EGSR 2007. What follows its tables the paper does not show.
+    {
+        .name = "iir_tables",
+        .title = "Tables 1 and 2: incremental against anew, 256 VPLs, cost of a frame by stage",
+        .curves = { { "iir max_lights=256", "incremental", .speed = 4 },
+                    { "iir max_lights=256 mode=anew", "anew", .speed = 4 },
+                    { "iir max_lights=256", "1.56 x, incr.", .speed = 4, .scale = 1.5625 },
+                    { "iir max_lights=256 mode=anew", "1.56 x, anew", .speed = 4,
+                      .scale = 1.5625 } },
+        .panels = { { PANEL_STAGES, PANEL_MS,
+                      "While light and camera move. The paper's sizes, 1024 x 768 and 1600 x 1200, "
+                      "are as 1 to 1.56 along an edge." },
+                    { PANEL_PATH, PANEL_MS, "The frame's time along the path." } },
+        .path = { .frames = { 8, 60 },
+                  .rate = 60,
+                  .tour = true,
+                  .counters = { "shadow_maps", "manage_ms" } },
+        .joined = true,
+    },
+    {
+        .name = "iir_recalc",
+        .title = "Error against the budget of new VPLs, by the speed of the light",
+        .curves = { { "iir recalc_min=1", "as it is", .speed = 1 },
+                    { "iir recalc_min=1", "8 times as fast", .speed = 8 },
+                    { "iir recalc_min=1", "64 times as fast", .speed = 64 } },
+        .x = "recalc_max",
+        .x_label = "new VPLs a frame, at most",
+        .x_log = true,
+        .values = { "1", "2", "4", "8", "16", "32", "64" },
+        .baselines = { "iir mode=anew max_lights=4096 delay=0" },
+        .panels = { { PANEL_LINES, 0, "Mean along the path, against 4096 VPLs anew." },
+                    { PANEL_LINES, PANEL_MS, "What the budget costs." } },
+        .path = { .frames = { 12, 60 }, .rate = 60, .tour = true, .compared = { 1, 4 } },
+    },
+    {
+        .name = "iir_path",
+        .title = "Along a path: dispersion, new VPLs and error",
+        .curves = { { "iir", "incremental, 4 to 8", .speed = 4 },
+                    { "iir recalc_min=0", "0 to 8", .speed = 4 },
+                    { "iir recalc_min=16 recalc_max=32", "16 to 32", .speed = 4 },
+                    { "iir mode=anew", "anew", .speed = 4 } },
+        .baselines = { "iir mode=anew max_lights=4096 delay=0" },
+        .panels = { { PANEL_PATH, PANEL_COUNTER,
+                      "Dispersion over that of as many points in a hexagonal lattice: 1 is best.",
+                      "dispersion", "dispersion" },
+                    { PANEL_PATH, PANEL_COUNTER, "VPLs that light no longer reaches, a frame.",
+                      "invalid", "invalid VPLs" },
+                    { PANEL_PATH, 0, "Against 4096 VPLs anew." } },
+        .path = { .frames = { 12, 120 },
+                  .rate = 60,
+                  .tour = true,
+                  .compared = { 2, 6 },
+                  .counters = { "dispersion", "invalid", "new_vpls", "shadow_maps" } },
+    },
+    {
+        .name = "iir_vpls",
+        .title = "Error against the number of VPLs, with and without shadow maps",
+        .curves = { { "iir delay=0", "with shadow maps" },
+                    { "iir delay=0 visibility=none", "without" } },
+        .x = "max_lights",
+        .x_label = "VPLs",
+        .x_log = true,
+        .values = { "64", "256", "1024", "4096" },
+        .baselines = { "path1", "path1_unshadowed" },
+        .panels = { { PANEL_LINES, 0, "Against one bounce with shadows." },
+                    { PANEL_LINES, 1, "Against one bounce that nothing hides." },
+                    { PANEL_LINES, PANEL_MS, "What they cost, frame after frame." } },
+    },
     { .name = NULL },
 };
 
@@ -152,7 +222,7 @@ int study_truth(const char *name)
 
 int studies_check(cli *c, const options *o)
 {
-    char known[256];
+    char known[512];
     size_t used = 0;
     for (const study *s = studies; s->name && used < sizeof known; ++s)
         used += (size_t) snprintf(known + used, sizeof known - used, "%s%s",
@@ -179,112 +249,4 @@ bool studies_need_truths(const options *o, bool full)
             if (study_wanted(o, full, s) && study_truth(s->baselines[i]) >= 0)
                 return true;
     return false;
-}
-
-// ---- stages ----------------------------------------------------------------------------------
-
-enum {
-    STAGE_REST,
-    STAGE_MAP,
-    STAGE_VPLS,
-    STAGE_MIPMAPS,
-    STAGE_REFINE,
-    STAGE_VISIBILITY,
-    STAGE_LIGHT,
-    STAGE_UPSAMPLE,
-    STAGE_OTHER
-};
-const char *const study_stages[] = {
-    [STAGE_REST] = "direct light and the rest",
-    [STAGE_MAP] = "RSM",
-    [STAGE_VPLS] = "VPLs",
-    [STAGE_MIPMAPS] = "mipmaps",
-    [STAGE_REFINE] = "stencil, refinement",
-    [STAGE_VISIBILITY] = "visibility",
-    [STAGE_LIGHT] = "gather, splat",
-    [STAGE_UPSAMPLE] = "upsampling",
-    [STAGE_OTHER] = "other",
-    NULL,
-};
-
-// By how the name goes on after the plugin's; the first that fits.
-static const struct {
-    const char *start;
-    int stage;
-} pass_stages[] = {
-    { "face", STAGE_MAP },
-    { "build", STAGE_MAP },
-    { "pack", STAGE_VPLS },
-    { "count_vpls", STAGE_VPLS },
-    { "count_nodes", STAGE_VPLS },
-    { "light", STAGE_VPLS },
-    { "sum", STAGE_VPLS },
-    { "choose", STAGE_VPLS },
-    { "cluster", STAGE_VPLS },
-    { "tree", STAGE_VPLS },
-    { "vpl", STAGE_VPLS },
-    { "eye_variation", STAGE_MIPMAPS },
-    { "variation", STAGE_MIPMAPS },
-    { "refine", STAGE_REFINE },
-    { "stencil", STAGE_REFINE },
-    { "valid", STAGE_REFINE },
-    { "count_texels", STAGE_REFINE },
-    { "count_patches", STAGE_REFINE },
-    { "share", STAGE_REFINE },
-    { "list", STAGE_REFINE },
-    { "eyes", STAGE_VISIBILITY },
-    { "ism", STAGE_VISIBILITY },
-    { "gather", STAGE_LIGHT },
-    { "splat", STAGE_LIGHT },
-    { "cells", STAGE_UPSAMPLE },
-    { "push", STAGE_UPSAMPLE },
-    { "upsample", STAGE_UPSAMPLE },
-};
-
-static int stage_of(const char *step)
-{
-    for (int i = 0; i < FG_COUNT(pass_stages); ++i)
-        if (!strncmp(step, pass_stages[i].start, strlen(pass_stages[i].start)))
-            return pass_stages[i].stage;
-    return STAGE_OTHER;
-}
-
-void study_add_stages(cJSON *record)
-{
-    double ms[STAGE_OTHER + 1] = { 0 };
-    double rest = json_number(cJSON_GetObjectItem(record, "frame_ms"), "median");
-    const char *plugin = json_text(record, "plugin");
-    const size_t length = strlen(plugin);
-    const cJSON *pass;
-    cJSON_ArrayForEach(pass, cJSON_GetObjectItem(record, "passes"))
-    {
-        const char *name = json_text(pass, "name");
-        const double own = report_pass_ms(pass);
-        if (strncmp(name, plugin, length) != 0 || name[length] != '.' || !(own > 0))
-            continue;
-        ms[stage_of(name + length + 1)] += own;
-        rest -= own;
-    }
-    ms[STAGE_REST] = rest > 0 ? rest : 0;
-    cJSON *stages = cJSON_AddArrayToObject(record, "stages");
-    for (int i = 0; i <= STAGE_OTHER; ++i) {
-        cJSON *stage = cJSON_CreateObject();
-        cJSON_AddStringToObject(stage, "stage", study_stages[i]);
-        cJSON_AddNumberToObject(stage, "ms", ms[i]);
-        cJSON_AddItemToArray(stages, stage);
-    }
-}
-
-double study_own_ms(const cJSON *point)
-{
-    const cJSON *stages = cJSON_GetObjectItem(point, "stages"), *stage;
-    double sum = 0;
-    cJSON_ArrayForEach(stage, stages)
-    {
-        const char *name = json_text(stage, "stage");
-        if (strcmp(name, study_stages[STAGE_REST]) != 0 &&
-            strcmp(name, study_stages[STAGE_MAP]) != 0)
-            sum += json_number(stage, "ms");
-    }
-    return sum;
 }
