@@ -33,21 +33,23 @@ static int block_of(fg_device *device, const ag_gather_pass *pass)
 static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
 {
     static const int clamps[] = { 3, 1, 0, 2, 4, 4 }; // by ag_clamp, as gather.glsl numbers them
+    const char *visibility = pass->visibility   ? ";VISIBILITY=1"
+                             : pass->paraboloid ? ";VISIBILITY=2"
+                                                : "";
     char defines[96];
     const int block = block_of(device, pass), edge = block == 16 ? 4 : block == 4 ? 2 : 1;
     fg_gl_program_desc desc = { .shaders = { &gather_comp }, .defines = defines };
     if (by_stencil(pass)) {
         desc.shaders[0] = &fullscreen_vert;
         desc.shaders[1] = &gather_frag;
-        snprintf(defines, sizeof defines, "CLAMP=%d%s", clamps[pass->clamp],
-                 pass->visibility ? ";VISIBILITY=1" : "");
+        snprintf(defines, sizeof defines, "CLAMP=%d%s", clamps[pass->clamp], visibility);
     } else {
         snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s%s", edge, edge,
                  clamps[pass->clamp],
                  pass->multires ? ";LIST=1"
                  : pass->split  ? ";SPLIT=1"
                                 : "",
-                 pass->visibility ? ";VISIBILITY=1" : "");
+                 visibility);
     }
     return fg_gl_program(device, &desc);
 }
@@ -138,6 +140,8 @@ static fg_status run_gather(const fg_run *run, void *user)
     const int block = block_of(device, pass);
     if (pass->visibility)
         ag_ism_bind(run, pass->visibility);
+    if (pass->paraboloid)
+        ag_paraboloid_bind(run, pass->paraboloid);
     glUseProgram(program);
     dispatch_spans(run, pass, program, block);
     return FG_OK;
@@ -162,16 +166,36 @@ static bool check(const ag_gather_pass *pass, fg_graph *g, const ag_gather_desc 
                 desc->prefix);
     else if (sparse && desc->split)
         fg_fail(g, "%s: a split frame goes with neither multires nor ism", desc->prefix);
+    else if (sparse && desc->paraboloid)
+        fg_fail(g, "%s: paraboloid maps go with neither multires nor ism", desc->prefix);
     else
         return true;
     return false;
+}
+
+static fg_res light_texture(const ag_gather_pass *pass, fg_graph *g, const char *prefix)
+{
+    char name[64];
+    const char *const what = pass->multires ? "illumination"
+                             : pass->split  ? "split_indirect"
+                                            : "indirect";
+    const int *size = pass->multires ? pass->multires->pyramid.size
+                      : pass->split  ? pass->split->size
+                                     : NULL;
+    const fg_tex_desc tex = {
+        .format = FG_RGBA32F,
+        .width = size ? size[0] : 0, // 0: the frame's
+        .height = size ? size[1] : 0,
+    };
+    snprintf(name, sizeof name, "%s.%s", prefix, what);
+    return fg_texture(g, name, &tex);
 }
 
 void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,
                        const ag_gbuffer *gbuffer, const ag_vpl_pass *vpls,
                        const ag_gather_desc *desc)
 {
-    char name[64], texture[64];
+    char name[64];
     *pass = (ag_gather_pass){
         .scene = *scene,
         .position = gbuffer->position,
@@ -184,6 +208,7 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
         .block = desc->block,
         .visibility = desc->visibility,
         .multires = desc->multires,
+        .paraboloid = desc->paraboloid,
         .split = desc->split && desc->split->tiles > 1 ? desc->split : NULL,
     };
     if (!check(pass, g, desc))
@@ -196,16 +221,8 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
     const ag_multires_pass every_pixel = { 0 }, *m = desc->multires ? desc->multires : &every_pixel;
     const ag_multires_pass listed = by_stencil(pass) ? every_pixel : *m;
     const ag_ism_pass unshadowed = { 0 }, *ism = desc->visibility ? desc->visibility : &unshadowed;
-    const fg_tex_desc tex = {
-        .format = FG_RGBA32F,
-        .width = pass->split ? pass->split->size[0] : m->pyramid.size[0], // 0: the frame's
-        .height = pass->split ? pass->split->size[1] : m->pyramid.size[1],
-    };
-    snprintf(texture, sizeof texture, "%s.%s", desc->prefix,
-             pass->multires ? "illumination"
-             : pass->split  ? "split_indirect"
-                            : "indirect");
-    pass->out = fg_texture(g, texture, &tex);
+    const ag_paraboloid_pass none = { 0 }, *drawn = desc->paraboloid ? desc->paraboloid : &none;
+    pass->out = light_texture(pass, g, desc->prefix);
     const fg_load load = pass->multires ? FG_LOAD_KEEP : FG_LOAD_DISCARD;
     const fg_pass_desc gather = {
         .name = name,
@@ -218,6 +235,8 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
             { pass->count },
             { ism->maps, .optional = true },
             { ism->eyes, .optional = true },
+            { drawn->maps, .optional = !desc->paraboloid },
+            { drawn->eyes, .optional = !desc->paraboloid },
             { listed.texels, .optional = true },
             { listed.count, .optional = true },
             { listed.count, FG_USE_INDIRECT, .optional = true },

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Irradiance of receivers from all VPLs: gather.comp and gather.frag. BLOCK_X, BLOCK_Y: receivers of
 // one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint, 4 bounded. LIST, SPLIT: see
-// receivers.glsl.
+// receivers.glsl. VISIBILITY: see visible.glsl.
 //
 // E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
 // Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5.
@@ -13,7 +13,7 @@
 #include "passes/include/pass/view_shared.h"
 #include "passes/include/pass/vpl_shared.h"
 #ifdef VISIBILITY
-#include "passes/ism/visibility.glsl"
+#include "passes/gather/visible.glsl"
 #endif
 
 #ifndef BLOCK_X
@@ -87,7 +87,7 @@ void add_near(int j, int i, float unit)
     n /= max(length(n), 1e-6);
     float share = patch_share(d, n, vpls[j], area, max(-dot(vpls[j].normal.xyz, d), 0.0));
 #ifdef VISIBILITY
-    share *= ism_visibility(ism_map_of(j, int(count.x)), p * unit, n);
+    share *= vpl_visibility(vpl_open(j, int(count.x)), p * unit, n);
 #endif
     if (is_there(i)) {
         vec4 old = imageLoad(indirect, place_of(i));
@@ -159,7 +159,7 @@ void main()
             float most = bound.x / (unit * unit * per);
 #endif
 #ifdef VISIBILITY
-            ism_map map = ism_open(ism_map_of(j, int(count.x)));
+            vpl_map map = vpl_open(j, int(count.x));
 #endif
             for (int i = 0; i < block; i++) {
                 vec3 d = q - p[i];
@@ -184,7 +184,7 @@ void main()
 #endif
 #ifdef VISIBILITY
                 if (share > 0.0)
-                    share *= ism_visibility(map, p[i], n[i]);
+                    share *= vpl_visibility(map, p[i], n[i]);
 #endif
                 part[i] += flux * share;
             }

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <pass/gather.h>
 #include <pass/interleave.h>
+#include <pass/paraboloid_shared.h>
 #include <pass/vpl_shared.h>
 #include <stdlib.h>
 #include <string.h>
@@ -296,6 +297,82 @@ static void one_tile_is_no_split(void **state)
     }
 }
 
+// Maps of VPLs j: everything hidden where j is odd, nothing else.
+static void paraboloid_maps(lit *l, ag_paraboloid_pass *maps, GLuint *texture, GLuint *buffer)
+{
+    enum { EDGE = 16 };
+    static float texels[2][EDGE * EDGE]; // reciprocal distance over its unit
+    static struct {
+        int32_t layout[4];
+        ag_paraboloid_eye_block eyes[MAX_VPLS];
+    } block;
+    const fg_tex_desc tex = { .format = FG_R16F, .width = EDGE, .height = EDGE, .layers = 2 };
+    block.layout[0] = EDGE;
+    for (int j = 0; j < MAX_VPLS; j++) {
+        ag_paraboloid_eye_block *e = &block.eyes[j];
+        *e = (ag_paraboloid_eye_block){ .position = { 0, 0, 0, 1 },
+                                        .tangent = { 1 },
+                                        .bitangent = { 0, -1 },
+                                        .normal = { 0, 0, -1, (float) (j % 2) } };
+        memcpy(e->position, l->vpls[j].position_area, 3 * sizeof(float));
+    }
+    for (int i = 0; i < EDGE * EDGE; i++)
+        texels[1][i] = 1e4f;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, texture);
+    glTextureStorage3D(*texture, 1, GL_R16F, EDGE, EDGE, 2);
+    glTextureSubImage3D(*texture, 0, 0, 0, 0, EDGE, EDGE, 2, GL_RED, GL_FLOAT, texels);
+    glCreateBuffers(1, buffer);
+    glNamedBufferStorage(*buffer, sizeof block, &block, 0);
+    *maps = (ag_paraboloid_pass){
+        .maps = fg_import_texture(l->f.graph, "t.maps", &tex, *texture),
+        .eyes =
+            fg_import_buffer(l->f.graph, "t.eyes", &(fg_buf_desc){ .size = sizeof block }, *buffer),
+    };
+}
+
+static float *lit_by_maps(lit *l, int n, ag_clamp clamp)
+{
+    ag_paraboloid_pass maps;
+    GLuint texture, buffer;
+    lit_begin(l);
+    paraboloid_maps(l, &maps, &texture, &buffer);
+    const ag_gather_desc desc = {
+        .prefix = "t", .clamp = clamp, .clamp_e = 1, .split = &l->split, .paraboloid = &maps
+    };
+    declare_split(&l->split, &l->f, n);
+    ag_gather_declare(&l->gather, l->f.graph, &l->f.scene, &l->f.gbuffer, &l->pass, &desc);
+    ag_combine_declare(&l->combine, l->f.graph, &l->split, l->gather.out);
+    fg_export(l->f.graph, l->combine.out);
+    feed_run(&l->f);
+    float *texels = feed_texels(&l->f, l->combine.out);
+    glDeleteTextures(1, &texture);
+    glDeleteBuffers(1, &buffer);
+    return texels;
+}
+
+static void each_vpl_has_its_own_map(void **state)
+{
+    enum { EDGE = 24, COUNT = 40 };
+    static const ag_clamp clamps[] = { AG_CLAMP_FOOTPRINT, AG_CLAMP_DISC, AG_CLAMP_NONE,
+                                       AG_CLAMP_IRRADIANCE };
+    (void) state;
+    for (int c = 0; c < FG_COUNT(clamps); c++)
+        for (int n = 1; n <= 4; n += 3) {
+            lit l;
+            lit_init(&l, EDGE, EDGE, COUNT);
+            show_blocks(&l.f, 1, 1.2);
+            float *got = lit_by_maps(&l, n, clamps[c]);
+            for (int j = 1; j < COUNT; j += 2)
+                memset(l.vpls[j].flux, 0, sizeof l.vpls[j].flux);
+            float *want = lit_run(&l, n, (ag_gather_desc){ .clamp = clamps[c], .clamp_e = 1 });
+            for (int i = 0; i < 4 * EDGE * EDGE; i++) // the last bits, of some ten roundings a term
+                assert_true(fabs((double) (got[i] - want[i])) <= 3e-6 * (double) want[i]);
+            free(got);
+            free(want);
+            lit_finish(&l);
+        }
+}
+
 // ---- filter -------------------------------------------------------------------------------------
 
 typedef struct picture {
@@ -528,6 +605,7 @@ int main(void)
         cmocka_unit_test(each_tile_has_its_run_of_the_list),
         cmocka_unit_test(what_bounds_a_vpl_bounds_it_alone),
         cmocka_unit_test(one_tile_is_no_split),
+        cmocka_unit_test(each_vpl_has_its_own_map),
         cmocka_unit_test(pattern_of_a_plane_goes),
         cmocka_unit_test(light_stays_on_its_surface),
         cmocka_unit_test(a_pixel_counts_itself),

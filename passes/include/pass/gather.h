@@ -5,6 +5,7 @@
 #include <pass/interleave.h>
 #include <pass/ism.h>
 #include <pass/multires.h>
+#include <pass/paraboloid.h>
 #include <pass/vpl.h>
 
 FG_BEGIN
@@ -25,7 +26,7 @@ typedef enum ag_clamp {
 //
 //     E_i = sum_j V_ij rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
 //
-// V_ij is 1 for all, or what imperfect shadow maps say.
+// V_ij is 1 for all, or what imperfect or paraboloid shadow maps say.
 //
 // With `split` each of its n x n tiles is lit by the VPLs of its own alone, times n^2: tile (i, j)
 // has the run j n + i of the list, each count / n^2 VPLs long, one more where j n + i < count %
@@ -46,6 +47,7 @@ typedef struct ag_gather_pass {
     int capacity; // of `vpls`
     const ag_ism_pass *visibility;
     const ag_multires_pass *multires;
+    const ag_paraboloid_pass *paraboloid;
     const ag_split_pass *split; // NULL with one tile
 } ag_gather_pass;
 
@@ -59,9 +61,9 @@ typedef struct ag_gather_desc {
     const ag_ism_pass *visibility; // maps of these VPLs, declared before; borrowed while the graph
                                    // runs. NULL: nothing shadows them
     const ag_multires_pass *multires; // NULL: every pixel. Borrowed while the graph runs.
-    const ag_split_pass *split;       // NULL: the frame in one. Borrowed while the graph runs. With
-                                // neither multires nor visibility; IRRADIANCE and GEOMETRY too
-                                // are not for those.
+    // Neither goes with multires or visibility, nor do IRRADIANCE and GEOMETRY. Borrowed likewise.
+    const ag_split_pass *split;           // NULL: the frame in one
+    const ag_paraboloid_pass *paraboloid; // maps of these VPLs. NULL: nothing shadows them
 } ag_gather_desc;
 
 FG_API void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,
