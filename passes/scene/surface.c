@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <pass/surface.h>
+#include "surface_priv.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -29,36 +29,62 @@ static int wrap(ag_wrap mode, double i, int size)
     return (int) (in < size ? in : period - 1 - in);
 }
 
-static void add_texel(const ag_texture *t, double x, double y, float weight, float rgba[4])
+void ag_texel_linear(const ag_texture *t, size_t at, float rgba[4])
 {
-    size_t row = (size_t) wrap(t->wrap_v, y, t->height),
-           column = (size_t) wrap(t->wrap_u, x, t->width);
-    const uint8_t *texel = t->rgba + (row * (size_t) t->width + column) * 4;
+    pthread_once(&tables_once, make_tables);
+    const uint8_t *texel = t->rgba + at * 4;
     const float *rgb_table = t->srgb ? srgb_to_linear : unorm_to_float;
     for (int i = 0; i < 3; i++)
-        rgba[i] += weight * rgb_table[texel[i]];
-    rgba[3] += weight * unorm_to_float[texel[3]];
+        rgba[i] = rgb_table[texel[i]];
+    rgba[3] = unorm_to_float[texel[3]];
+}
+
+static size_t texel_at(const ag_texture *t, const int size[2], double x, double y)
+{
+    return (size_t) wrap(t->wrap_v, y, size[1]) * (size_t) size[0] +
+           (size_t) wrap(t->wrap_u, x, size[0]);
+}
+
+int ag_texture_taps(const ag_texture *t, const int size[2], const float uv[2], ag_tap taps[4])
+{
+    double x = isfinite(uv[0]) ? (double) uv[0] * size[0] : 0,
+           y = isfinite(uv[1]) ? (double) uv[1] * size[1] : 0;
+    double x0 = floor(x - 0.5), y0 = floor(y - 0.5);
+    float fx = (float) (x - 0.5 - x0), fy = (float) (y - 0.5 - y0);
+    taps[0] = (ag_tap){ texel_at(t, size, x0, y0), (1 - fx) * (1 - fy) };
+    taps[1] = (ag_tap){ texel_at(t, size, x0 + 1, y0), fx * (1 - fy) };
+    taps[2] = (ag_tap){ texel_at(t, size, x0, y0 + 1), (1 - fx) * fy };
+    taps[3] = (ag_tap){ texel_at(t, size, x0 + 1, y0 + 1), fx * fy };
+    return 4;
 }
 
 void ag_texture_sample(const ag_texture *t, float u, float v, float rgba[4])
 {
-    pthread_once(&tables_once, make_tables);
-    double x = isfinite(u) ? (double) u * t->width : 0,
-           y = isfinite(v) ? (double) v * t->height : 0;
+    const int size[2] = { t->width, t->height };
+    ag_tap taps[4] = { { .weight = 1 } };
+    int count = 1;
+    if (t->nearest)
+        taps[0].at = texel_at(t, size, isfinite(u) ? floor((double) u * size[0]) : 0,
+                              isfinite(v) ? floor((double) v * size[1]) : 0);
+    else
+        count = ag_texture_taps(t, size, (float[2]){ u, v }, taps);
     rgba[0] = rgba[1] = rgba[2] = rgba[3] = 0;
-    if (t->nearest) {
-        add_texel(t, floor(x), floor(y), 1, rgba);
-        return;
+    for (int k = 0; k < count; k++) {
+        float texel[4];
+        ag_texel_linear(t, taps[k].at, texel);
+        for (int i = 0; i < 4; i++)
+            rgba[i] += taps[k].weight * texel[i];
     }
-    double x0 = floor(x - 0.5), y0 = floor(y - 0.5);
-    float fx = (float) (x - 0.5 - x0), fy = (float) (y - 0.5 - y0);
-    add_texel(t, x0, y0, (1 - fx) * (1 - fy), rgba);
-    add_texel(t, x0 + 1, y0, fx * (1 - fy), rgba);
-    add_texel(t, x0, y0 + 1, (1 - fx) * fy, rgba);
-    add_texel(t, x0 + 1, y0 + 1, fx * fy, rgba);
 }
 
 // ---- surfaces ---------------------------------------------------------------------
+
+void ag_texture_place(const ag_texture_ref *ref, const float uv[2][2], float at[2])
+{
+    const float *t = ref->transform, *in = uv[ref->uv];
+    at[0] = t[0] * in[0] + t[1] * in[1] + t[2];
+    at[1] = t[3] * in[0] + t[4] * in[1] + t[5];
+}
 
 static void sample_ref(const ag_scene *scene, const ag_texture_ref *ref, const float uv[2][2],
                        float rgba[4])
@@ -66,14 +92,9 @@ static void sample_ref(const ag_scene *scene, const ag_texture_ref *ref, const f
     rgba[0] = rgba[1] = rgba[2] = rgba[3] = 1;
     if (ref->texture < 0)
         return;
-    const float *t = ref->transform, *in = uv[ref->uv];
-    float u = t[0] * in[0] + t[1] * in[1] + t[2], v = t[3] * in[0] + t[4] * in[1] + t[5];
-    ag_texture_sample(&scene->textures[ref->texture], u, v, rgba);
-}
-
-static float clamp01(float v)
-{
-    return fminf(fmaxf(v, 0), 1);
+    float at[2];
+    ag_texture_place(ref, uv, at);
+    ag_texture_sample(&scene->textures[ref->texture], at[0], at[1], rgba);
 }
 
 void ag_surface_eval(const ag_scene *scene, const ag_material *m, const float uv[2][2],
