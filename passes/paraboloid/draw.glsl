@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Triangles as the eye of a paraboloid map sees them.
+//
+// A direction is inside of a triangle where it is on the inner side of the three planes through the eye
+// and the edges. Two triangles that share an edge get planes of opposite signs, equal to the bit, so
+// that no ray goes between them: hence `precise`, and sums and differences of corners in their
+// products.
+// Source: of the products: Davidovic et al. 3D Rasterization: A Bridge between Rasterization and Ray
+//         Casting. GI 2012.
+#include "passes/paraboloid/draw_shared.h"
+
+layout(std430, binding = 0) readonly buffer triangle_buffer
+{
+    shadow_triangle triangles[];
+};
+layout(std430, binding = 1) readonly buffer eye_buffer
+{
+    shadow_eye eyes[];
+};
+
+// An eye that is nearer to a triangle's plane than this does not know by its numbers on which side it
+// is. Places are known to some 2^-24.
+const float near_plane = 1.0 / 1048576.0;
+// Texels beyond the horizon have what is so far inside of it, in (x, y) / (1 + z), that nothing which
+// lies on the eye's own plane rises to it. They reach as far out as lookups do, in texels.
+const float horizon = 1.0 - 1.0 / 4096.0;
+const float reach = 1.5;
+// Half floats end at 65504.
+const float most = 65504.0;
+
+// Corners in the frame of the eye, and the sense in which they go round.
+struct seen {
+    vec3 a, b, c;
+    float turn; // 1: counter-clockwise from the eye; -1
+};
+
+seen see(int triangle, int map)
+{
+    shadow_triangle t = triangles[triangle];
+    shadow_eye e = eyes[map];
+    precise vec3 a = (t.a.xyz - e.high.xyz) - e.low.xyz;
+    precise vec3 b = (t.b.xyz - e.high.xyz) - e.low.xyz;
+    precise vec3 c = (t.c.xyz - e.high.xyz) - e.low.xyz;
+    vec3 n = cross(t.b.xyz - t.a.xyz, t.c.xyz - t.a.xyz);
+    // The eye goes to the side that its surface shows, or, where the triangle is across that, to the
+    // triangle's front.
+    float n2 = max(dot(n, n), 1e-37), height = -dot(n, a), along = dot(n, e.normal.xyz);
+    float side = along * along > 0.25 * n2 ? sign(along) : 1.0;
+    bool is_near = height * height < near_plane * near_plane * n2;
+    float wanted = is_near ? side * near_plane * sqrt(n2) : height;
+    precise vec3 shift = is_near ? n * ((height - wanted) / n2) : vec3(0.0);
+    a += shift;
+    b += shift;
+    c += shift;
+    seen s;
+    precise vec3 sa = vec3(dot(a, e.tangent.xyz), dot(a, e.bitangent.xyz), dot(a, e.normal.xyz));
+    precise vec3 sb = vec3(dot(b, e.tangent.xyz), dot(b, e.bitangent.xyz), dot(b, e.normal.xyz));
+    precise vec3 sc = vec3(dot(c, e.tangent.xyz), dot(c, e.bitangent.xyz), dot(c, e.normal.xyz));
+    s.a = sa;
+    s.b = sb;
+    s.c = sc;
+    s.turn = wanted < 0.0 ? 1.0 : -1.0;
+    return s;
+}
+
+// Normals of the planes through the eye and the edges opposite of a, b, c; inside is above 0.
+struct edges {
+    vec3 a, b, c;
+};
+
+vec3 edge(vec3 p, vec3 q)
+{
+    precise vec3 sum = p + q, difference = q - p;
+    precise vec3 n = vec3(sum.y * difference.z - sum.z * difference.y,
+                          sum.z * difference.x - sum.x * difference.z,
+                          sum.x * difference.y - sum.y * difference.x);
+    return n;
+}
+
+edges edges_of(seen s)
+{
+    return edges(s.turn * edge(s.b, s.c), s.turn * edge(s.c, s.a), s.turn * edge(s.a, s.b));
+}
+
+// The ray of a texel, of length 1 + s, w. That is 0 where no lookup comes.
+vec4 ray_of(ivec2 texel, float size)
+{
+    vec2 u = (vec2(texel) + 0.5) * (2.0 / size) - 1.0;
+    float s = dot(u, u), rim = 1.0 + reach * 2.0 / size;
+    u *= min(horizon * inversesqrt(max(s, 0.25)), 1.0);
+    float t = dot(u, u);
+    return vec4(2.0 * u, 1.0 - t, s > rim * rim ? 0.0 : 1.0 + t);
+}
+
+// Reciprocal distance of the triangle along a ray, 0 where it is not met. `weights`: barycentrics, not
+// yet normalized. The point met is a mean of the corners, so that a triangle however thin has it
+// within its bounds.
+float meet(seen s, edges n, vec4 ray, out vec3 weights)
+{
+    precise vec3 w = vec3(dot(n.a, ray.xyz), dot(n.b, ray.xyz), dot(n.c, ray.xyz));
+    float sum = w.x + w.y + w.z;
+    float far = w.x * dot(s.a, ray.xyz) + w.y * dot(s.b, ray.xyz) + w.z * dot(s.c, ray.xyz);
+    bool inside = min(min(w.x, w.y), w.z) >= 0.0 && sum > 0.0 && far > 0.0;
+    weights = w;
+    return inside ? min(ray.w * sum / max(far, 1e-37), most) : 0.0;
+}
