@@ -22,15 +22,18 @@ FG_BEGIN
 // brought back. Distances are Euclidean, of the sphere through space. A point is known by an id of
 // the caller's in [0, capacity).
 //
-// Two points may be too near to each other to tell apart. The later one is then a duplicate: it
-// counts, can be removed, has no area, and takes over should the first be removed.
+// Two points nearer to each other than IIR_DUPLICATE are too near to tell apart. The later one, of
+// points set at once the one with the larger index, is then a duplicate: it counts, can be removed,
+// has no area, and takes over should the first be removed.
 //
-// Deterministic: equal calls in equal order give equal bits. No allocation where the number of
-// points stays below what it was at most before.
+// Deterministic: equal calls in equal order give equal bits. Memory is that of the largest number
+// of points so far; CGAL's transient lists apart, see delaunay_bridge.h.
 //
 // Source: Laine, Saransaari, Kontkanen, Lehtinen, Aila. Incremental Instant Radiosity for
 //         Real-Time Indirect Illumination. EGSR 2007, sec. 4.1 to 4.7.
 // Thread: one at a time on a domain; different domains on any.
+#define IIR_DUPLICATE 0x1p-16
+
 typedef enum iir_space {
     IIR_DISC = 0,
     IIR_SPHERE,
@@ -53,11 +56,15 @@ typedef struct iir_domain_desc {
 iir_domain *iir_domain_create(const iir_domain_desc *desc);
 void iir_domain_destroy(iir_domain *d); // accepts NULL
 
-// Replaces all points; count 0 empties. Cheaper than one after the other. FG_ERR_MEMORY: the domain
-// is then empty.
+// Replaces all points; count 0 empties. Cheaper than one after the other.
+//
+// Errors of this and the next: FG_ERR_MEMORY; FG_ERR_INVALID for an id that is out of range or in
+// use, a point that is not finite, and the origin as a point of the sphere. iir_domain_insert()
+// then changes nothing where it is FG_ERR_INVALID, and in all other cases the domain is empty.
 FG_NODISCARD fg_status iir_domain_set(iir_domain *d, const double (*points)[3], const int *ids,
                                       int count);
 FG_NODISCARD fg_status iir_domain_insert(iir_domain *d, int id, const double point[3]);
+// Nothing happens where there is no such point. Should memory run out the domain is empty.
 void iir_domain_remove(iir_domain *d, int id);
 
 int iir_domain_count(const iir_domain *d); // duplicates too
