@@ -225,7 +225,7 @@ int bench_main(const bench_program *program, int argc, char **argv)
     if (!parse(&b, argc, argv))
         return usage(&b);
     fg_status status = create(&b);
-    if (status == FG_OK)
+    if (status == FG_OK && (!program->subject || side_plugin_exists(&b, program->subject)))
         status = run_scenes(&b);
     if (status != FG_OK)
         fprintf(stderr, "%s: %s\n", program->name, fg_status_name(status));

@@ -36,7 +36,7 @@ typedef fg_status (*bench_part)(const bench *b);
 typedef struct bench_program {
     const char *name;        // before its lines on stderr
     int size[2];             // of frames where --size is not given
-    const char *subject;     // the plugin that it is about; NULL: several
+    const char *subject;     // the plugin that it is about, without which it does nothing; or NULL
     const bench_part *parts; // run in order in each scene; ends at NULL
 } bench_program;
 
@@ -103,6 +103,7 @@ typedef struct side {
     int pass_count;
 } side;
 
+bool side_plugin_exists(const bench *b, const char *plugin); // else a line on stderr
 // Finds the plugin and makes a renderer of the bench's scene. FG_ERR_UNSUPPORTED, with a line on
 // stderr: there is no such plugin, or it has no such parameter.
 fg_status side_open(const bench *b, side *s, const int size[2]);
@@ -143,16 +144,15 @@ fg_status motion_round(motion *m, int frame);
 fg_status motion_camera(motion *m, int frame); // the camera likewise, to its right and left
 fg_status motion_end(motion *m);               // back at rest
 
-// A picture along the motion, and how it changes beside the truth's change.
-typedef struct moving_picture {
-    image now, before;
+// How pictures change along the motion beside how they should.
+typedef struct changes {
     double change; // sum over the frames of mean |dI|, dI = now - before
     double excess; // and of mean |dI - dT|, T the truth
-} moving_picture;
+    int count;
+} changes;
 
-void moving_push(moving_picture *p, image *picture);            // takes it over
-void moving_add(moving_picture *p, const moving_picture *full); // the truth
-void moving_finish(moving_picture *p);
+// Pictures of before and now: its own, and the truth.
+void changes_add(changes *c, const image picture[2], const image due[2]);
 
 // ---- truth -----------------------------------------------------------------------------------
 
@@ -167,7 +167,14 @@ typedef struct truth_error {
     double rmse_rms; // without the truth's noise; NAN where that is all
 } truth_error;
 
-fg_status truth_render(const bench *b, const int size[2], int spp, bool unshadowed, truth *out);
+typedef struct truth_desc {
+    int size[2];
+    int spp;
+    uint64_t seed;
+    bool unshadowed; // every surface along a bounce ray counts
+} truth_desc;
+
+fg_status truth_render(const bench *b, const truth_desc *desc, truth *out);
 void truth_finish(truth *t);
 fg_status truth_compare(const bench *b, const truth *t, const image *picture, truth_error *out);
 // With --pictures: FOLDER/NAME.png, and FOLDER/NAME_error.png with full colour at half the truth's

@@ -27,7 +27,8 @@ static const char over_4096[] = "hisr.flicker_over_rsm_4096";
 typedef struct path {
     side sides[SIDES];
     bool there[SIDES];
-    moving_picture pictures[SIDES];
+    image pictures[SIDES][2]; // before, now
+    changes changes[SIDES];
     motion motion;
 } path;
 
@@ -65,37 +66,39 @@ static fg_status run_frame(const bench *b, path *p, int frame)
 {
     fg_status status = motion_line(&p->motion, frame, frame - 0.5 * (FRAMES - 1));
     for (int k = 0; k < SIDES && status == FG_OK; k++) {
-        image picture = { 0 };
+        image *pictures = p->pictures[k];
         if (!p->there[k])
             continue;
+        image_finish(&pictures[0]);
+        pictures[0] = pictures[1];
+        pictures[1] = (image){ 0 };
         status = side_frame(b, &p->sides[k], b->scene->time);
         if (status == FG_OK)
-            status = side_picture(&p->sides[k], &picture);
-        moving_push(&p->pictures[k], &picture);
+            status = side_picture(&p->sides[k], &pictures[1]);
     }
     for (int k = 0; k < SIDES && frame && status == FG_OK; k++)
         if (p->there[k])
-            moving_add(&p->pictures[k], &p->pictures[FULL]);
+            changes_add(&p->changes[k], p->pictures[k], p->pictures[FULL]);
     return status;
 }
 
 static void print_all(const bench *b, const path *p, const int size[2])
 {
-    const moving_picture *m = p->pictures;
-    const double base = m[RSM_256].excess, moved = m[FULL].change;
+    const changes *c = p->changes;
+    const double base = c[RSM_256].excess, moved = c[FULL].change;
     for (int k = 0; k < SIDES; k++) {
         if (b->verbose && p->there[k])
             fprintf(stderr, "%s: %s %s: change %.4g, of the full gather %.4g; in excess %.4g\n",
                     b->scene_name, p->sides[k].plugin, p->sides[k].values,
-                    m[k].change / (FRAMES - 1), moved / (FRAMES - 1), m[k].excess / (FRAMES - 1));
+                    c[k].change / (FRAMES - 1), moved / (FRAMES - 1), c[k].excess / (FRAMES - 1));
         if (!p->there[k] || !figures[k][0])
             continue;
-        bench_print(b, figures[k][0], size, m[k].excess / base, "x");
-        bench_print(b, figures[k][1], size, (m[k].change - moved) / (m[RSM_256].change - moved),
+        bench_print(b, figures[k][0], size, c[k].excess / base, "x");
+        bench_print(b, figures[k][1], size, (c[k].change - moved) / (c[RSM_256].change - moved),
                     "x");
     }
     if (p->there[HISR] && p->there[RSM_4096])
-        bench_print(b, over_4096, size, m[HISR].excess / m[RSM_4096].excess, "x");
+        bench_print(b, over_4096, size, c[HISR].excess / c[RSM_4096].excess, "x");
 }
 
 fg_status bench_flicker(const bench *b)
@@ -113,7 +116,8 @@ fg_status bench_flicker(const bench *b)
         print_all(b, &p, size);
     for (int k = 0; k < SIDES; k++) {
         side_close(&p.sides[k]);
-        moving_finish(&p.pictures[k]);
+        image_finish(&p.pictures[k][0]);
+        image_finish(&p.pictures[k][1]);
     }
     const fg_status ended = motion_end(&p.motion);
     return status == FG_OK ? ended : status;

@@ -70,31 +70,17 @@ fg_status motion_end(motion *m)
 
 // ---- pictures --------------------------------------------------------------------------------
 
-void moving_push(moving_picture *p, image *picture)
+void changes_add(changes *c, const image picture[2], const image due[2])
 {
-    image_finish(&p->before);
-    p->before = p->now;
-    p->now = *picture;
-    *picture = (image){ 0 };
-}
-
-void moving_add(moving_picture *p, const moving_picture *full)
-{
-    const size_t count = 3 * (size_t) p->now.width * (size_t) p->now.height;
+    const size_t count = 3 * (size_t) picture->width * (size_t) picture->height;
     double excess = 0, change = 0;
     for (size_t i = 0; i < count; i++) {
-        const double own = (double) p->now.rgb[i] - (double) p->before.rgb[i];
-        const double due = (double) full->now.rgb[i] - (double) full->before.rgb[i];
-        excess += fabs(own - due);
+        const double own = (double) picture[1].rgb[i] - (double) picture[0].rgb[i];
+        const double expected = (double) due[1].rgb[i] - (double) due[0].rgb[i];
+        excess += fabs(own - expected);
         change += fabs(own);
     }
-    p->excess += excess / (double) count;
-    p->change += change / (double) count;
-}
-
-void moving_finish(moving_picture *p)
-{
-    image_finish(&p->now);
-    image_finish(&p->before);
-    *p = (moving_picture){ 0 };
+    c->excess += excess / (double) count;
+    c->change += change / (double) count;
+    c->count++;
 }

@@ -71,22 +71,19 @@ static fg_status parse_values(const bench *b, side *s, const char *values)
     return status;
 }
 
-static bool there_is(const bench *b, const char *plugin)
+bool side_plugin_exists(const bench *b, const char *plugin)
 {
     const char *name;
     for (int i = 0; (name = gi_name(b->registry, i)); i++)
         if (!strcmp(name, plugin))
             return true;
+    fprintf(stderr, "%s: there is no plugin %s\n", b->program->name, plugin);
     return false;
 }
 
 static fg_status find_plugin(const bench *b, side *s)
 {
-    if (!there_is(b, s->plugin)) {
-        fprintf(stderr, "%s: there is no plugin %s\n", b->program->name, s->plugin);
-        return FG_ERR_UNSUPPORTED;
-    }
-    s->table = gi_find(b->registry, s->plugin);
+    s->table = side_plugin_exists(b, s->plugin) ? gi_find(b->registry, s->plugin) : NULL;
     if (!s->table)
         return FG_ERR_UNSUPPORTED;
     s->set = calloc((size_t) gi_params_count(s->table) + 1, sizeof *s->set);

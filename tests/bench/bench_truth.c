@@ -6,22 +6,23 @@
 
 #include <math.h>
 
-fg_status truth_render(const bench *b, const int size[2], int spp, bool unshadowed, truth *out)
+fg_status truth_render(const bench *b, const truth_desc *d, truth *out)
 {
     const reference_desc desc = {
         .log = &b->log,
         .scene = b->scene,
         .camera = &b->scene->cameras[b->camera],
-        .width = size[0],
-        .height = size[1],
+        .width = d->size[0],
+        .height = d->size[1],
         .bounces = 1,
-        .spp = spp,
+        .spp = d->spp,
+        .seed = d->seed,
         .layer = REFERENCE_INDIRECT,
-        .unshadowed_bounce = unshadowed,
+        .unshadowed_bounce = d->unshadowed,
     };
     *out = (truth){ 0 };
     fg_status status = reference_render_halves(&desc, &out->picture, &out->noise);
-    const size_t count = 3 * (size_t) size[0] * (size_t) size[1];
+    const size_t count = 3 * (size_t) d->size[0] * (size_t) d->size[1];
     double squares = 0;
     for (size_t i = 0; i < count && status == FG_OK; i++)
         squares += (double) out->picture.rgb[i] * (double) out->picture.rgb[i];
