@@ -173,11 +173,37 @@ static void steps_hold(void **state)
         }
 }
 
+// Down to none and up again, by every way there is.
+static void few_points_come_and_go(void **state)
+{
+    (void) state;
+    uint64_t random = 3;
+    char what[64];
+    for (int run = 0; run < FG_COUNT(backs) * 5 * 60; ++run) {
+        const int back = run % FG_COUNT(backs), n = 2 + run / FG_COUNT(backs) % 5;
+        iir_domain *d = domain_of(back, n);
+        for (int step = 0; step < 30; ++step) {
+            double place[3];
+            const int id = (int) (points_random(&random) * n);
+            points_random_place(&random, backs[back].space, place);
+            if (iir_domain_has(d, id))
+                iir_domain_remove(d, id);
+            else
+                assert_int_equal(iir_domain_insert(d, id, place), FG_OK);
+            points_corners_of(d, n, &corners);
+            snprintf(what, sizeof what, "run %d step %d", run, step);
+            areas_hold(d, back, n, what);
+        }
+        iir_domain_destroy(d);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_of_all_kinds_hold),
         cmocka_unit_test(steps_hold),
+        cmocka_unit_test(few_points_come_and_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

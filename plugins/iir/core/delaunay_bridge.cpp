@@ -15,6 +15,7 @@
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 using kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -275,9 +276,24 @@ struct sphere final : delaunay {
         hilbert_sort3(points, ids);
     }
 
+    // CGAL leaves broken what loses a dimension by a removal: the few that stay are inserted again.
     void remove(int id) override
     {
-        t.remove(vertices[(size_t) id]);
+        if (t.number_of_vertices() > 5) {
+            t.remove(vertices[(size_t) id]);
+            return;
+        }
+        std::array<std::pair<int, point3>, 5> rest;
+        size_t count = 0;
+        for (auto v = t.vertices_begin(); v != t.vertices_end(); ++v)
+            if (v->info() != id)
+                rest[count++] = { v->info(), v->point() };
+        t.clear();
+        for (size_t i = 0; i < count; ++i) {
+            const point3 &p = rest[i].second;
+            const double at[3] = { p.x(), p.y(), p.z() };
+            insert(rest[i].first, at, -1);
+        }
     }
 
     int ring(int id, int *out) const override
