@@ -183,12 +183,14 @@ static bool parse(bench *b, int argc, char **argv)
             b->verbose = true;
         else if (!strcmp(argv[i], "--least"))
             samples_take_least();
-        else if (argv[i][0] != '-' && b->name_count < MAX_NAMES)
-            b->names[b->name_count++] = argv[i];
-        else if (i + 1 < argc && parse_value(b, argv[i], argv[i + 1]))
-            i++;
-        else
+        else if (argv[i][0] == '-' && (i + 1 >= argc || !parse_value(b, argv[i], argv[i + 1])))
             return false;
+        else if (argv[i][0] == '-')
+            i++;
+        else if (b->name_count == MAX_NAMES)
+            return false;
+        else
+            b->names[b->name_count++] = argv[i];
     }
     for (int i = 0; b->wanted_scene && scene_names[i]; i++)
         if (!strcmp(b->wanted_scene, scene_names[i]))

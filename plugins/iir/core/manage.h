@@ -25,7 +25,7 @@ FG_BEGIN
 // Positions are of the world. Moving instances neither make VPLs nor hide them (sec. 4.4).
 // Deterministic.
 // Thread: one at a time.
-enum { IIR_MAX_VPLS = 4096 };
+enum { IIR_MAX_VPLS = 4096, IIR_MAX_TILES = 8 };
 
 typedef enum iir_mode {
     IIR_INCREMENTAL = 0,
@@ -40,21 +40,21 @@ typedef enum iir_deal {
 typedef struct iir_budget {
     iir_mode mode;
     int max_lights;  // points of all lights together, [1, IIR_MAX_VPLS]: shared by power
-    int recalc_min;  // points that a step frees at least, by the deletion rule
-    int recalc_max;  // points that a step creates at most; also shared by power
+    int recalc_min;  // points that a step frees at least, by the deletion rule; above recalc_max
+                     // it counts as that
+    int recalc_max;  // points that a step creates at most; both are shared by power, too
     bool fill_first; // a step that finds no points creates up to max_lights
-    bool settle;     // leave a point where it is if what its removal opens would be the largest
-                     // empty circle again; without it a still light's VPLs never rest
+    bool settle;     // of a light that has not moved leave a point where it is if what its removal
+                     // opens would be the largest empty circle again; without it VPLs never rest
     bool rescale;    // the paper's: what leaves the scene is given to the VPLs
     iir_deal deal;
-    int tiles; // n: subsets for n x n pixels, 1 to 8
+    int tiles; // n: subsets for n x n pixels, [1, IIR_MAX_TILES]
 } iir_budget;
 
 // What of a scene a step needs that changes with time.
 typedef struct iir_lights {
     const ag_light *lights; // borrowed during the step
     int count;
-    double box_min[3], box_max[3]; // of the scene
 } iir_lights;
 
 typedef struct iir_vpl {
@@ -93,18 +93,20 @@ typedef struct iir_manager_desc {
     const ag_scene *scene; // its static surfaces; may be moved to other times meanwhile, on another
                            // thread too
     int max_lights;        // that budgets may ask for, [1, IIR_MAX_VPLS]
-    int blur;              // texels along the longer edge of a texture that give a VPL its colour
+    int blur; // texels along the longer edge of the textures that give a VPL its colour, > 0
     iir_triangulation triangulation;
 } iir_manager_desc;
 
-// Errors: FG_ERR_MEMORY, FG_ERR_UNSUPPORTED as ag_rays_create().
+// Errors: FG_ERR_INVALID, a number out of its range; FG_ERR_MEMORY; FG_ERR_UNSUPPORTED as
+// ag_rays_create().
 FG_NODISCARD fg_status iir_manager_create(const iir_manager_desc *desc, iir_manager **out);
 void iir_manager_destroy(iir_manager *m); // accepts NULL
 // Forgets all VPLs: the scene's static part has changed, or the camera cut to another light.
 void iir_manager_clear(iir_manager *m);
 
-// `*out` is valid until the next step. Says once in the log when no VPL comes of lights that have
-// power. Errors: FG_ERR_MEMORY.
+// `*out` is valid until the next step, and what it held until the one after. Says once in the log
+// when no VPL comes of lights that have power. Errors: FG_ERR_INVALID, a budget out of its ranges;
+// FG_ERR_MEMORY, all points are then forgotten.
 FG_NODISCARD fg_status iir_manager_step(iir_manager *m, const iir_lights *lights,
                                         const iir_budget *budget, const iir_result **out);
 
