@@ -8,6 +8,7 @@
 static void receive(void *user, fg_log_level level, const char *msg)
 {
     stability *s = user;
+    s->warnings += level == FG_LOG_WARN;
     if (level == FG_LOG_ERROR && !s->error[0])
         snprintf(s->error, sizeof s->error, "%s", msg);
 }
@@ -87,8 +88,9 @@ static void print_notes(const cJSON *list)
     }
 }
 
-static const stability_case *const tables[] = { stability_light_cases, stability_frame_cases,
-                                                stability_hierarchy_cases, NULL };
+static const stability_case *const tables[] = { stability_light_cases,     stability_frame_cases,
+                                                stability_hierarchy_cases, stability_reuse_cases,
+                                                stability_change_cases,    NULL };
 
 static const stability_case *find_case(const char *name)
 {
@@ -190,7 +192,7 @@ const command command_stability = {
         "the\n"
         "bound is not kept, for the reason given and by no more than is known. --frames: length "
         "of\n"
-        "the case in which nothing moves (300).",
+        "the long cases, in which nothing moves or a light goes to and fro (300).",
     .max_operands = -1,
     .option_names = " --gi --set --device --shader-dir --plugin-dir --frames --output ",
     .run = run,

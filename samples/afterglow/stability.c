@@ -121,26 +121,38 @@ int stability_find_vpls(const gi_plugin *p)
     return -1;
 }
 
-fg_status stability_with(const stability *s, const char *values, setting *out)
+// Sets all of `values`, or those that the plugin takes.
+static fg_status with(const stability *s, const char *values, bool all, setting *out)
 {
     const gi_plugin *p = s->setting->plugin;
     char word[64];
     *out = (setting){ 0 };
-    if (!p)
+    if (!p && all)
         return FG_ERR_UNSUPPORTED;
     if (!setting_copy(s->setting, out))
         return FG_ERR_MEMORY;
-    for (const char *at = values; *at;) {
+    for (const char *at = values; p && *at;) {
         const size_t length = strcspn(at, " ");
         snprintf(word, sizeof word, "%.*s", (int) length, at);
-        if (!has_param(p, word, strcspn(word, "=")) ||
-            gi_params_set(NULL, p, out->values, word) != FG_OK) {
+        const bool taken = has_param(p, word, strcspn(word, "=")) &&
+                           gi_params_set(NULL, p, out->values, word) == FG_OK;
+        if (!taken && all) {
             setting_finish(out);
             return FG_ERR_UNSUPPORTED;
         }
         at += length + (at[length] == ' ');
     }
     return FG_OK;
+}
+
+fg_status stability_with(const stability *s, const char *values, setting *out)
+{
+    return with(s, values, true, out);
+}
+
+fg_status stability_with_known(const stability *s, const char *values, setting *out)
+{
+    return with(s, values, false, out);
 }
 
 // ---- frames ----------------------------------------------------------------------------------
@@ -155,9 +167,8 @@ static double samples_of(renderer *r)
     return (double) NAN;
 }
 
-fg_status stability_render(stability *s, const shot *what, image *out)
+fg_status stability_open(stability *s, const shot *what, renderer **out)
 {
-    renderer *r = NULL;
     const renderer_desc desc = {
         .log = &s->log,
         .device = s->device,
@@ -173,8 +184,14 @@ fg_status stability_render(stability *s, const shot *what, image *out)
         .inspect = inspect,
         .inspect_user = s,
     };
+    return renderer_create(&desc, out);
+}
+
+fg_status stability_render(stability *s, const shot *what, image *out)
+{
+    renderer *r = NULL;
     *out = (image){ 0 };
-    fg_status status = renderer_create(&desc, &r);
+    fg_status status = stability_open(s, what, &r);
     for (int i = 0; i < (what->frames ? what->frames : 1) && status == FG_OK; ++i)
         status = renderer_frame(r, what->time + i * what->step);
     if (status == FG_OK)

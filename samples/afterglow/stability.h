@@ -16,7 +16,8 @@ typedef struct stability {
     const setting *setting; // the plugin at hand
     const gi_plugin *rsm;   // what gathers in full, to be held against; NULL: not there
     bool own_passes;        // check what the plugin's own passes write alone
-    int frames;             // of the long case
+    int frames;             // of the long cases
+    int warnings;           // that came so far
     long bad;               // values that broke the rule in this case
     char where[128];        // the first of them
     bool poke, poked;       // put a NaN into the G-buffer, and check nothing
@@ -35,6 +36,8 @@ typedef struct shot {
     const gi_value *values; // NULL: the setting's
 } shot;
 
+// A renderer with every check on, before its first frame. Errors as renderer_create().
+FG_NODISCARD fg_status stability_open(stability *s, const shot *what, renderer **out);
 // Renders with every check on. Errors as the renderer's. Counters come late: `samples` takes some
 // frames.
 FG_NODISCARD fg_status stability_render(stability *s, const shot *what, image *out);
@@ -54,13 +57,15 @@ typedef struct stability_case {
 
 // End at a NULL name: where light and surfaces are odd, and where the frame is.
 extern const stability_case stability_light_cases[], stability_frame_cases[],
-    stability_hierarchy_cases[];
+    stability_hierarchy_cases[], stability_reuse_cases[], stability_change_cases[];
 
 // The row of `vpls` in the plugin's table; -1: it has none.
 int stability_find_vpls(const gi_plugin *p);
 // The setting at hand with other values, "depth=0 share=0". FG_ERR_UNSUPPORTED: the plugin has no
 // such parameter, or none of that range. The caller finishes `out`.
 FG_NODISCARD fg_status stability_with(const stability *s, const char *values, setting *out);
+// The same with those of the values that the plugin takes.
+FG_NODISCARD fg_status stability_with_known(const stability *s, const char *values, setting *out);
 
 // ---- figures ---------------------------------------------------------------------------------
 
@@ -69,6 +74,8 @@ double stability_mean(const image *img);
 double stability_most(const image *img);
 double stability_change(double a, double b); // |a - b| / |b|
 long stability_differing(const image *a, const image *b);
+// Relative RMSE of `a` against `b`.
+FG_NODISCARD fg_status stability_rmse(stability *s, const image *a, const image *b, double *out);
 
 // ---- scenes ----------------------------------------------------------------------------------
 
@@ -79,12 +86,15 @@ typedef struct room {
     float albedo;     // 0: 0.6
     bool black;       // albedo 0
     bool block;       // a box on the floor
+    bool block_goes;  // away at 0.5 s
+    bool partition;   // a wall across at z = 0
+    bool twice;       // every wall is there twice
     bool floor_alone;
     float emission;
     const ag_light *lights; // positions in rooms from its centre, intensities for a room of 1 m
     int light_count;
     int junk;         // 1: triangles that are to be dropped; 2: and slivers and inverted ones
-    double travel[3]; // the first light moves this far in 1 s
+    double travel[3]; // in rooms: the first light moves this far in 1 s
     bool jump;        // at once, at 0.5 s
 } room;
 
@@ -101,5 +111,31 @@ FG_NODISCARD fg_status stability_shoot(stability *s, const room *what, shot view
 FG_NODISCARD fg_status stability_figure(stability *s, const room *what, shot view,
                                         stability_figure_fn figure, double *out);
 FG_NODISCARD fg_status stability_checks(stability *s, const room *what, shot view, double *out);
+
+// ---- reels -----------------------------------------------------------------------------------
+
+// Frame after frame of a room, with what may change in between: host's and scene's.
+typedef struct reel {
+    stability *s;
+    setting own;
+    ag_scene *scene;
+    renderer *r;
+} reel;
+
+// The setting at hand with those of `values` that the plugin knows; with all of them, or
+// FG_ERR_UNSUPPORTED, if `all`. Whatever comes of it: the caller closes it.
+FG_NODISCARD fg_status reel_open(stability *s, const room *what, shot view, const char *values,
+                                 bool all, reel *out);
+void reel_close(reel *r);
+// `count` frames from `time` on, `step` seconds apart.
+FG_NODISCARD fg_status reel_run(reel *r, double time, double step, int count);
+// What the last frame's indirect light is.
+FG_NODISCARD fg_status reel_picture(reel *r, image *out);
+FG_NODISCARD fg_status reel_mean(reel *r, double *out);
+// NAN: the plugin has none of that name.
+double reel_counter(const reel *r, const char *name);
+// The indirect light of a renderer's first frame, at `time`.
+FG_NODISCARD fg_status reel_fresh(stability *s, const room *what, shot view, const char *values,
+                                  double time, image *out);
 
 #endif // STABILITY_H

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "metrics.h"
 #include "stability.h"
 
 #include <math.h>
@@ -45,6 +46,15 @@ long stability_differing(const image *a, const image *b)
     for (size_t i = 0; i < stability_values(a); ++i)
         count += bits(a->rgb[i]) != bits(b->rgb[i]);
     return count;
+}
+
+fg_status stability_rmse(stability *s, const image *a, const image *b, double *out)
+{
+    metrics m;
+    const fg_status status = metrics_compare(&s->log, a, b, &m);
+    if (status == FG_OK)
+        *out = m.rmse_rms;
+    return status;
 }
 
 // ---- a room, a shot, a figure ----------------------------------------------------------------

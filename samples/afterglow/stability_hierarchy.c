@@ -3,8 +3,6 @@
 // what they must not refine, and their parameters at either end.
 #include "stability.h"
 
-#include "metrics.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -77,15 +75,6 @@ static fg_status plane_seen_along(stability *s, double *out)
 
 // ---- rows 4 to 10 ----------------------------------------------------------------------------
 
-static fg_status against(stability *s, const image *a, const image *b, double *out)
-{
-    metrics m;
-    const fg_status status = metrics_compare(&s->log, a, b, &m);
-    if (status == FG_OK)
-        *out = m.rmse_rms;
-    return status;
-}
-
 static fg_status picture_at(stability *s, double scale, double *out)
 {
     const ag_light lamp = stability_lamp();
@@ -96,7 +85,7 @@ static fg_status picture_at(stability *s, double scale, double *out)
     if (status == FG_OK)
         status = stability_shoot(s, &what, indirect, &b);
     if (status == FG_OK)
-        status = against(s, &b, &a, out);
+        status = stability_rmse(s, &b, &a, out);
     image_finish(&a);
     image_finish(&b);
     return status;
@@ -274,7 +263,7 @@ static fg_status tau_0(stability *s, double *out)
     fg_status status = both_pictures(s, "tau=0 rsm_size=64 finest=64 depth=0 normal=0 share=0",
                                      "rsm_size=64 pattern=all", &a, &b);
     if (status == FG_OK)
-        status = against(s, &a, &b, out);
+        status = stability_rmse(s, &a, &b, out);
     image_finish(&a);
     image_finish(&b);
     return status;

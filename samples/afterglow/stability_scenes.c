@@ -103,13 +103,13 @@ static void add_camera(ag_builder *b, const room *what, double scale)
 }
 
 // A light that travels hangs on a node of its own, turned so that its -Z is down.
-static void add_moving(ag_builder *b, const room *what, const ag_light *light)
+static void add_moving(ag_builder *b, const room *what, double scale, const ag_light *light)
 {
     float times[] = { 0, 0.5f, 1 }, values[9];
     for (int k = 0; k < 3; ++k)
         for (int c = 0; c < 3; ++c) {
             const double part = what->jump ? (k ? 1 : 0) : 0.5 * k;
-            values[3 * k + c] = (float) (light->position[c] + part * what->travel[c]);
+            values[3 * k + c] = (float) (light->position[c] + part * scale * what->travel[c]);
         }
     const int node = ag_builder_node(
         b, &(ag_node_desc){
@@ -135,10 +135,42 @@ static void add_lights(ag_builder *b, const room *what, double scale)
             light.intensity[c] *= local ? (float) (scale * scale) : 1;
         }
         if (i == 0 && (what->travel[0] != 0 || what->travel[1] != 0 || what->travel[2] != 0))
-            add_moving(b, what, &light);
+            add_moving(b, what, scale, &light);
         else
             ag_builder_light(b, -1, &light);
     }
+}
+
+static void show_walls(ag_builder *b, int node, int material, const room *what, float scale)
+{
+    static const quad partition = { { -0.5f, -0.5f, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+    for (int k = 0; k < (what->twice ? 2 : 1); ++k)
+        for (int i = 0; i < (what->floor_alone ? 1 : FG_COUNT(walls)); ++i)
+            show_quad(b, node, material, &walls[i], scale);
+    if (what->partition)
+        show_quad(b, node, material, &partition, scale);
+}
+
+// Three rooms down, in a step.
+static void send_away(ag_builder *b, int node, double scale)
+{
+    static const float times[] = { 0, 0.5f, 1 };
+    const float down = (float) (-3 * scale), values[9] = { 0, 0, 0, 0, down, 0, 0, down, 0 };
+    ag_builder_channel(b, &(ag_channel_desc){
+                              .node = node,
+                              .interpolation = AG_INTERPOLATE_STEP,
+                              .key_count = 3,
+                              .times = times,
+                              .values = values,
+                          });
+}
+
+static void add_block(ag_builder *b, const room *what, int parent, int material, double scale)
+{
+    const int node = ag_builder_node(b, &(ag_node_desc){ .name = "block", .parent = parent });
+    show_block(b, node, material, (float) scale);
+    if (what->block_goes)
+        send_away(b, node, scale);
 }
 
 static void fill_room(ag_builder *b, const room *what)
@@ -153,10 +185,9 @@ static void fill_room(ag_builder *b, const room *what)
         node.translation[c] = what->offset[c];
     }
     const int material = ag_builder_material(b, &m), at = ag_builder_node(b, &node);
-    for (int i = 0; i < (what->floor_alone ? 1 : FG_COUNT(walls)); ++i)
-        show_quad(b, at, material, &walls[i], (float) scale);
+    show_walls(b, at, material, what, (float) scale);
     if (what->block)
-        show_block(b, at, material, (float) scale);
+        add_block(b, what, at, material, scale);
     if (what->junk)
         show_junk(b, at, material, what->junk);
     add_lights(b, what, scale);
