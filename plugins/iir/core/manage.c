@@ -65,8 +65,10 @@ static bool allocate(iir_manager *m)
     m->sorted = calloc(n, sizeof *m->sorted);
     for (int i = 0; i < 2; i++)
         m->vpls[i] = calloc(n, sizeof *m->vpls[i]);
+    for (int i = 0; i < 2; i++)
+        m->shown[i] = calloc(n, sizeof *m->shown[i]);
     return m->points && m->order && m->at && m->ids && m->areas && m->probes && m->probed &&
-           m->blocked && m->sorted && m->vpls[0] && m->vpls[1];
+           m->blocked && m->sorted && m->vpls[0] && m->vpls[1] && m->shown[0] && m->shown[1];
 }
 
 static fg_status make_rays(iir_manager *m)
@@ -122,8 +124,9 @@ void iir_manager_destroy(iir_manager *m)
     ag_rays_destroy(m->rays);
     ag_blur_destroy(m->blur);
     void *const blocks[] = {
-        m->points, m->order,   m->at,      m->ids,    m->areas,  m->probes, m->probed, m->blocked,
-        m->sorted, m->vpls[0], m->vpls[1], m->lights, m->shares, m->ranks,  m->first,
+        m->points, m->order,   m->at,     m->ids,      m->areas,    m->probes,
+        m->probed, m->blocked, m->sorted, m->vpls[0],  m->vpls[1],  m->lights,
+        m->shares, m->ranks,   m->first,  m->shown[0], m->shown[1],
     };
     for (int i = 0; i < FG_COUNT(blocks); i++)
         free(blocks[i]);
@@ -317,6 +320,29 @@ static void find_scales(iir_manager *m, bool rescale)
     }
 }
 
+// m->order has the VPLs of the result in their order.
+static void show_points(iir_manager *m)
+{
+    iir_point *out = m->shown[m->turn];
+    int *const at = m->ids; // of each point: its VPL
+    for (int i = 0; i < m->result.count; i++)
+        at[m->order[i]] = i;
+    m->result.points = out;
+    for (int l = 0; l < m->light_count; l++) {
+        const light_state *light = &m->lights[l];
+        for (int i = 0; i < light->capacity; i++) {
+            const int id = light->points[i];
+            if (id < 0)
+                continue;
+            const point *p = &m->points[id];
+            iir_point *to = &out[m->result.point_count++];
+            *to = (iir_point){ .space = light->space, .light = l, .fresh = p->fresh };
+            to->vpl = p->escaped ? -1 : at[id];
+            memcpy(to->place, p->at, sizeof to->place);
+        }
+    }
+}
+
 static void publish(iir_manager *m, const iir_budget *budget)
 {
     iir_result *r = &m->result;
@@ -329,6 +355,7 @@ static void publish(iir_manager *m, const iir_budget *budget)
         fill_vpl(m, m->order[i], m->shares[m->points[m->order[i]].light].weight, v);
         r->fresh += v->fresh;
     }
+    show_points(m);
     for (int i = 0; i < m->light_count; i++)
         r->dispersion = fmax(r->dispersion, m->lights[i].wide);
     if (r->power > 0 && r->count == 0 && !m->said) {
