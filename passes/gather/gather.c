@@ -134,7 +134,7 @@ static fg_status run_gather(const fg_run *run, void *user)
     if (pass->clamp == AG_CLAMP_CONSTANT)
         glProgramUniform1f(program, 0, pass->bound);
     else if (is_bounded(pass))
-        glProgramUniform2f(program, 0, pass->bound, pass->clamp == AG_CLAMP_GEOMETRY);
+        glProgramUniform2f(program, 0, pass->bound, pass->clamp == AG_CLAMP_GEOMETRY ? 1 : 0);
     if (pass->multires)
         bind_texels(run, pass->multires, program);
     const int block = block_of(device, pass);

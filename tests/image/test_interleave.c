@@ -68,7 +68,8 @@ static void check_there_and_back(int width, int height, int n)
         float *back = feed_texels(&f, combine.out);
         assert_split(&f, &split, position, f.position);
         assert_split(&f, &split, normal, f.normal);
-        assert_true(same_bits(back, f.position, sizeof(float[4]) * (size_t) (width * height)));
+        assert_true(
+            same_bits(back, f.position, sizeof(float[4]) * (size_t) width * (size_t) height));
         free(position);
         free(normal);
         free(back);
@@ -234,7 +235,7 @@ static void each_tile_has_its_run_of_the_list(void **state)
     float *got = lit_run(&l, N, disc);
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++) {
-            const size_t at = (size_t) (y * W + x);
+            const size_t at = (size_t) y * W + (size_t) x;
             const int t = y % N * N + x % N, first = t < 5 ? 2 * t : t + 5;
             for (int k = 0; k < 3; k++) {
                 double want = 0;
@@ -285,7 +286,7 @@ static void one_tile_is_no_split(void **state)
     static const ag_gather_desc desc = { 0 };
     (void) state;
     for (int s = 0; s < FG_COUNT(sizes); s++) {
-        const size_t size = sizeof(float[4]) * (size_t) (sizes[s][0] * sizes[s][1]);
+        const size_t size = sizeof(float[4]) * (size_t) sizes[s][0] * (size_t) sizes[s][1];
         lit l;
         lit_init(&l, sizes[s][0], sizes[s][1], MAX_VPLS);
         whole(&l.f, (double[3]){ 0.3, 0.1, 1 }, -1.5);
@@ -385,7 +386,7 @@ static void picture_init(picture *p, int width, int height)
 {
     p->texture = 0;
     feed_init(&p->f, width, height, 0);
-    p->light = calloc((size_t) (width * height), sizeof *p->light);
+    p->light = calloc((size_t) width * (size_t) height, sizeof *p->light);
     assert_non_null(p->light);
 }
 
@@ -452,11 +453,11 @@ static int check_pattern(picture *p, int n, ag_box_filter_desc desc)
     int count = 0;
     for (int i = 0; i < p->f.width * p->f.height; i++) {
         const bool there = p->f.position[i][3] > 0;
-        assert_true(got[4 * i + 3] == (there ? 1 : 0));
+        assert_true(got[(size_t) 4 * (size_t) i + 3] == (there ? 1 : 0));
         if (there && !sees_all(&p->f, i % p->f.width, i / p->f.width, n))
             continue;
         // A sum of at most 64 terms of below 1, and a division.
-        assert_true(fabs((double) got[4 * i] - (there ? mean : 0)) < 66 * 6e-8);
+        assert_true(fabs((double) got[(size_t) 4 * (size_t) i] - (there ? mean : 0)) < 66 * 6e-8);
         count += there;
     }
     free(got);
@@ -509,7 +510,9 @@ static void light_stays_on_its_surface(void **state)
                     p.light[i][k] = i % W < W / 2 ? 3 : 5;
             float *got = filtered(&p, 4, desc);
             for (int i = 0; i < W * H; i++)
-                assert_true(got[4 * i] == (i % W < W / 2 ? 3 : depths[c] < 0 ? 5 : 0));
+                assert_true(got[(size_t) 4 * (size_t) i] == (i % W < W / 2   ? 3
+                                                             : depths[c] < 0 ? 5
+                                                                             : 0));
             free(got);
             picture_finish(&p);
         }
@@ -530,7 +533,8 @@ static void a_pixel_counts_itself(void **state)
         const ag_box_filter_desc desc = { metric ? AG_BOX_DISTANCE : AG_BOX_PLANE, 1e-6f, 1 };
         float *got = filtered(&p, 4, desc);
         for (int i = 0; i < EDGE * EDGE; i++)
-            assert_true(got[4 * i] == (p.f.position[i][3] > 0 ? (float) (i + 1) : 0));
+            assert_true(got[(size_t) 4 * (size_t) i] ==
+                        (p.f.position[i][3] > 0 ? (float) (i + 1) : 0));
         free(got);
     }
     picture_finish(&p);
