@@ -244,6 +244,24 @@ static void a_sun_keeps_its_share_of_the_sky(void **state)
     ag_scene_destroy(scene);
 }
 
+static void there_need_not_be_any_light(void **state)
+{
+    (void) state;
+    ag_scene *scene = walled_room(&logger);
+    iir_manager *m = manage(&logger, scene, 64);
+    const iir_budget budget = default_budget(64);
+    const ag_light lamp = point_light(0.3, 0.2, 0.1);
+    for (int count = 0; count < 3; count++) { // none, one, none again
+        const iir_lights lights = { .lights = &lamp, .count = count % 2 };
+        const iir_result *r;
+        assert_int_equal(iir_manager_step(m, &lights, &budget, &r), FG_OK);
+        assert_int_equal(r->count, 64 * lights.count);
+        assert_int_equal(r->point_count, r->count + r->escaped);
+    }
+    iir_manager_destroy(m);
+    ag_scene_destroy(scene);
+}
+
 static void nothing_is_cast_for_a_light_that_rests(void **state)
 {
     (void) state;
@@ -540,6 +558,7 @@ int main(void)
         cmocka_unit_test_setup(a_thin_wall_hides_its_other_side, start),
         cmocka_unit_test_setup(points_in_the_sky_go_when_something_comes_before_them, start),
         cmocka_unit_test_setup(a_sun_keeps_its_share_of_the_sky, start),
+        cmocka_unit_test_setup(there_need_not_be_any_light, start),
         cmocka_unit_test_setup(nothing_is_cast_for_a_light_that_rests, start),
         cmocka_unit_test_setup(moving_things_neither_hide_nor_make_vpls, start),
         cmocka_unit_test_setup(a_step_makes_no_more_than_its_budget, start),

@@ -154,9 +154,9 @@ void iir_manager_unseen(iir_manager *m)
 
 static bool room_for_lights(iir_manager *m, int count)
 {
-    if (count <= m->light_capacity)
+    if (count <= m->light_capacity && m->first)
         return true;
-    size_t capacity = 4;
+    size_t capacity = 4; // without any light, too
     while (capacity < (size_t) count)
         capacity *= 2;
     light_state *lights = realloc(m->lights, capacity * sizeof *lights);
