@@ -374,7 +374,7 @@ struct tetra final : delaunay {
         const auto v = vertices[(size_t) id], infinite = t.infinite_vertex();
         triangulation::Cell_handle first;
         int size = 0, i, k;
-        if (!t.is_edge(infinite, v, first, i, k))
+        if (!t.is_edge(v, infinite, first, i, k)) // looks around the first
             throw std::invalid_argument("a point inside the hull of the others");
         auto c = first;
         do { // leave through the face opposite to one vertex, which the next cell does not have

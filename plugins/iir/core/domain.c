@@ -351,34 +351,50 @@ static void find_near(const iir_domain *d, int id, int size, double near[2])
     }
 }
 
-static void rank_cell(iir_domain *d, int id)
+static void refresh_cell(iir_domain *d, int id, int wanted)
 {
+    wanted &= d->stale[id];
+    d->stale[id] &= (uint8_t) ~wanted;
+    if (!wanted || d->twin[id] != DOMAIN_CORNER)
+        return;
     domain_cell *cell = &d->cells[id];
     const int size = load_ring(d, id);
-    find_near(d, id, size, cell->near);
-    cell->empty = -1;
+    if (wanted & DOMAIN_STALE_RANK) {
+        find_near(d, id, size, cell->near);
+        cell->empty = -1;
+    }
+    if (wanted & DOMAIN_STALE_AREA)
+        cell->area = 0;
     if (d->space == IIR_DISC)
-        domain_disc_rank(d, id, size, cell);
+        domain_disc_fill(d, id, size, wanted, cell);
     else
-        domain_sphere_rank(d, id, size, cell);
+        domain_sphere_fill(d, id, size, wanted, cell);
+}
+
+// Of many: their areas at the same time, for less than one after the other.
+static void refresh_all(iir_domain *d)
+{
+    int kept = 0;
+    for (int i = 0; i < d->rank.count; ++i)
+        refresh_cell(d, d->rank.ids[i], DOMAIN_STALE_RANK | DOMAIN_STALE_AREA);
+    for (int i = 0; i < d->area.count; ++i)
+        if (d->stale[d->area.ids[i]] & DOMAIN_STALE_AREA)
+            d->area.ids[kept++] = d->area.ids[i];
+    d->area.count = kept;
+    domain_tree_fill(&d->near, d, near_before);
+    domain_tree_fill(&d->empty, d, empty_before);
 }
 
 static void refresh_ranks(iir_domain *d)
 {
-    const bool many = d->rank.count > d->capacity / 8;
-    for (int i = 0; i < d->rank.count; ++i) {
+    const bool many = d->rank.count > 16 && d->rank.count > d->count / 4;
+    if (many)
+        refresh_all(d);
+    for (int i = 0; i < d->rank.count && !many; ++i) {
         const int id = d->rank.ids[i];
-        d->stale[id] &= (uint8_t) ~DOMAIN_STALE_RANK;
-        if (d->twin[id] == DOMAIN_CORNER)
-            rank_cell(d, id);
-        if (many)
-            continue;
+        refresh_cell(d, id, DOMAIN_STALE_RANK);
         domain_tree_update(&d->near, d, near_before, id);
         domain_tree_update(&d->empty, d, empty_before, id);
-    }
-    if (many && d->rank.count > 0) {
-        domain_tree_fill(&d->near, d, near_before);
-        domain_tree_fill(&d->empty, d, empty_before);
     }
     d->rank.count = 0;
 }
@@ -410,15 +426,8 @@ double iir_domain_largest_empty_circle(iir_domain *d, double centre[3])
 
 void iir_domain_areas(iir_domain *d, double *areas)
 {
-    for (int i = 0; i < d->area.count; ++i) {
-        const int id = d->area.ids[i];
-        d->stale[id] &= (uint8_t) ~DOMAIN_STALE_AREA;
-        if (d->twin[id] != DOMAIN_CORNER)
-            continue;
-        const int size = load_ring(d, id);
-        d->cells[id].area =
-            d->space == IIR_DISC ? domain_disc_area(d, id, size) : domain_sphere_area(d, id, size);
-    }
+    for (int i = 0; i < d->area.count; ++i)
+        refresh_cell(d, d->area.ids[i], DOMAIN_STALE_AREA);
     d->area.count = 0;
     for (int id = 0; id < d->capacity; ++id)
         areas[id] = d->twin[id] == DOMAIN_CORNER ? d->cells[id].area : 0;

@@ -9,6 +9,7 @@
 #include "domain_priv.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef double vec[2];
 
@@ -24,12 +25,16 @@ typedef struct disc_edge {
     bool ends_at_rim[2];
     double ends[2][3];
     double radius2[2]; // of the circles about the ends, where these are at the rim
-    double area;       // of the triangle of the point and the part in the disc
 } disc_edge;
 
 static double cross(const double *a, const double *b)
 {
     return a[0] * b[1] - a[1] * b[0];
+}
+
+static double cross_from(const double *o, const double *a, const double *b)
+{
+    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
 }
 
 static double dot(const double *a, const double *b)
@@ -121,31 +126,32 @@ static disc_edge edge_between(const iir_domain *d, int p, int q, const int r[2],
         (corner_along(d, p, q, r[0], -1) < b.centre && corner_along(d, p, q, r[1], 1) > b.centre);
     if (!edge.there)
         return edge;
-    double ends[2] = { b.centre - b.half, b.centre + b.half };
-    for (int k = 0; k < 2; ++k) {
-        const double *at = corners[k]->at;
+    for (int k = 0; k < 2; ++k)
         if (in[k])
-            ends[k] = (at[0] - b.middle[0]) * b.way[0] + (at[1] - b.middle[1]) * b.way[1];
+            memcpy(edge.ends[k], corners[k]->at, sizeof edge.ends[k]);
         else
             rim_end(d, p, q, &b, &edge, k);
-    }
-    edge.area = 0.25 * b.length * (ends[1] - ends[0]);
     return edge;
 }
 
 static disc_edge edge_seen_from(const iir_domain *d, int p, int q, const int r[2],
                                 const disc_corner *right, const disc_corner *left)
 {
+    disc_edge out = { .there = true };
+    if (right->inside && left->inside) { // most are
+        memcpy(out.ends[0], right->at, sizeof right->at);
+        memcpy(out.ends[1], left->at, sizeof left->at);
+        return out;
+    }
     if (p < q)
         return edge_between(d, p, q, r, (const disc_corner *[]){ right, left });
     const disc_edge e =
         edge_between(d, q, p, (int[]){ r[1], r[0] }, (const disc_corner *[]){ left, right });
-    disc_edge out = { .there = e.there, .area = e.area };
+    out.there = e.there;
     for (int k = 0; k < 2; ++k) {
         out.ends_at_rim[k] = e.ends_at_rim[1 - k];
         out.radius2[k] = e.radius2[1 - k];
-        for (int i = 0; i < 3; ++i)
-            out.ends[k][i] = e.ends[1 - k][i];
+        memcpy(out.ends[k], e.ends[1 - k], sizeof out.ends[k]);
     }
     return out;
 }
@@ -202,18 +208,13 @@ static void offer_far_rim(const iir_domain *d, int id, int size, domain_cell *ce
         domain_cell_offer(cell, rim, domain_distance2(rim, p));
 }
 
-void domain_disc_rank(const iir_domain *d, int id, int size, domain_cell *cell)
+static void offer_edge(const disc_walk *w, const disc_edge *edge, domain_cell *cell)
 {
-    disc_edge edge;
-    disc_walk w = walk_begin(d, id, size);
-    while (walk_next(&w, &edge)) {
-        if (w.left.inside) // case 1
-            domain_cell_offer(cell, w.left.at, w.left.radius2);
-        for (int k = 0; k < 2; ++k) // case 2, of finite edges too
-            if (edge.there && edge.ends_at_rim[k])
-                domain_cell_offer(cell, edge.ends[k], edge.radius2[k]);
-    }
-    offer_far_rim(d, id, size, cell);
+    if (w->left.inside) // case 1
+        domain_cell_offer(cell, w->left.at, w->left.radius2);
+    for (int k = 0; k < 2; ++k) // case 2, of finite edges too
+        if (edge->there && edge->ends_at_rim[k])
+            domain_cell_offer(cell, edge->ends[k], edge->radius2[k]);
 }
 
 // x - sin x without cancellation.
@@ -231,35 +232,54 @@ static double less_sine(double x)
 // segment of the circle.
 static double fan_area(const double *p, const double *from, const double *to)
 {
-    const vec a = { from[0] - p[0], from[1] - p[1] }, b = { to[0] - p[0], to[1] - p[1] };
     double angle = atan2(cross(from, to), dot(from, to));
     // An arc that is there leaves 8e-3 of the rim at least to others; one of length 0 may be
     // negative by rounding.
     if (angle < -1e-3)
         angle += 2 * M_PI;
-    return 0.5 * less_sine(angle) + 0.5 * cross(a, b);
+    return 0.5 * less_sine(angle) + 0.5 * cross_from(p, from, to);
 }
 
-double domain_disc_area(const iir_domain *d, int id, int size)
+// What a cell has of the disc, added up while going around it.
+typedef struct disc_sum {
+    double area;
+    bool entered, outside; // came in by the rim before having left by it; has left by it last
+    double entry[3], exit[3];
+} disc_sum;
+
+static void add_edge(disc_sum *sum, const double *p, const disc_edge *edge)
+{
+    if (!edge->there)
+        return;
+    sum->area += 0.5 * cross_from(p, edge->ends[0], edge->ends[1]);
+    if (edge->ends_at_rim[0] && sum->outside) {
+        sum->area += fan_area(p, sum->exit, edge->ends[0]);
+        sum->outside = false;
+    } else if (edge->ends_at_rim[0]) {
+        memcpy(sum->entry, edge->ends[0], sizeof sum->entry);
+        sum->entered = true;
+    }
+    if (edge->ends_at_rim[1]) {
+        memcpy(sum->exit, edge->ends[1], sizeof sum->exit);
+        sum->outside = true;
+    }
+}
+
+void domain_disc_fill(const iir_domain *d, int id, int size, int wanted, domain_cell *cell)
 {
     disc_edge edge;
+    disc_sum sum = { 0 };
     disc_walk w = walk_begin(d, id, size);
-    const double *p = d->points[id];
-    double entry[2], exit[2], area = 0;
-    bool entered = false, left = false; // the disc's inside, by the rim
     while (walk_next(&w, &edge)) {
-        area += edge.area;
-        if (edge.there && edge.ends_at_rim[0]) {
-            if (left)
-                area += fan_area(p, exit, edge.ends[0]);
-            else
-                entry[0] = edge.ends[0][0], entry[1] = edge.ends[0][1], entered = true;
-            left = false;
-        }
-        if (edge.there && edge.ends_at_rim[1])
-            exit[0] = edge.ends[1][0], exit[1] = edge.ends[1][1], left = true;
+        if (wanted & DOMAIN_STALE_RANK)
+            offer_edge(&w, &edge, cell);
+        if (wanted & DOMAIN_STALE_AREA)
+            add_edge(&sum, d->points[id], &edge);
     }
-    if (!entered) // a cell without an end at the rim is all inside, or the only one
-        return size > 0 ? area : M_PI;
-    return area + (left ? fan_area(p, exit, entry) : 0);
+    if (wanted & DOMAIN_STALE_RANK)
+        offer_far_rim(d, id, size, cell);
+    if (sum.entered && sum.outside)
+        sum.area += fan_area(d->points[id], sum.exit, sum.entry);
+    if (wanted & DOMAIN_STALE_AREA)
+        cell->area = size > 0 ? sum.area : M_PI;
 }

@@ -59,11 +59,10 @@ struct iir_domain {
     domain_grid grid;
 };
 
-// Fills all of a cell but its area, or its area alone, from d->ring.
-void domain_disc_rank(const iir_domain *d, int id, int size, domain_cell *cell);
-double domain_disc_area(const iir_domain *d, int id, int size);
-void domain_sphere_rank(const iir_domain *d, int id, int size, domain_cell *cell);
-double domain_sphere_area(const iir_domain *d, int id, int size);
+// Fills what is wanted (DOMAIN_STALE_*) of a cell but `near`, from d->ring; `empty` is negative before
+// and the area 0.
+void domain_disc_fill(const iir_domain *d, int id, int size, int wanted, domain_cell *cell);
+void domain_sphere_fill(const iir_domain *d, int id, int size, int wanted, domain_cell *cell);
 
 // Whether a place is at least as near to a point as to all of its ring.
 bool domain_cell_holds(const iir_domain *d, int id, int size, const double place[3]);

@@ -100,106 +100,137 @@ static bisector bisector_of(const double *p, const double *q)
     return b;
 }
 
-// The area between the way from a point to the middle, the bisector from there on to a corner at an
-// angle in [-pi, pi], and the way back: a triangle with a right angle between legs a and b, for
-// which tan(area / 2) = tan(a / 2) tan(b / 2).
-static double area_up_to(double tangent, double angle)
+// Where a corner lies on a bisector: cosine and sine of an angle from the middle, times a length.
+typedef struct place {
+    double along[2];
+} place;
+
+static place place_of(const bisector *b, const double *corner)
 {
-    return 2 * atan2(tangent * sin(0.5 * angle), cos(0.5 * angle));
+    return (place){ { dot(corner, b->middle), dot(corner, b->way) } };
 }
 
-// The edge from the corner `right` of the way from p to q to the one to its left.
-typedef struct arc {
-    bisector b;
-    double angles[2];
-    bool around; // by the place opposite to the middle
-} arc;
-
-static arc arc_between(const double *p, const double *q, const double *right, const double *left)
+// Whether the edge from one place to another goes by the one opposite to the middle.
+static bool goes_around(place right, place left)
 {
-    arc a = { .b = bisector_of(p, q) };
-    const double *corners[2] = { right, left };
-    for (int k = 0; k < 2; ++k)
-        a.angles[k] = atan2(dot(corners[k], a.b.way), dot(corners[k], a.b.middle));
+    if (right.along[0] > 0 && left.along[0] > 0)
+        return false;
     // The length of the edge is in [0, pi]: the difference is within rounding of that, or of that
     // less 2 pi.
-    a.around = a.angles[1] - a.angles[0] < -0.5 * M_PI;
-    return a;
+    return atan2(left.along[1], left.along[0]) - atan2(right.along[1], right.along[0]) <
+           -0.5 * M_PI;
+}
+
+// Between the way from a point to the middle, the bisector from there on to a corner, and the way
+// back is a triangle with a right angle between its legs a and b: its area is e where
+// tan(e / 2) = tan(a / 2) tan(b / 2). This is a vector at the angle e / 2, in [-pi / 2, pi / 2].
+static place half_area(double tangent, place corner)
+{
+    const double x = corner.along[0], y = corner.along[1], length = sqrt(x * x + y * y);
+    if (x >= 0)
+        return (place){ { length + x, tangent * y } };
+    return (place){ { fabs(y), tangent * copysign(length - x, y) } };
+}
+
+static double area_between(double tangent, place right, place left)
+{
+    const place a = half_area(tangent, right), b = half_area(tangent, left);
+    return 2 * atan2(a.along[0] * b.along[1] - a.along[1] * b.along[0],
+                     a.along[0] * b.along[0] + a.along[1] * b.along[1]);
+}
+
+// The same for corners that are well within the hemisphere about p: the triangle p, right, left by
+// van Oosterom and Strackee's formula.
+static double near_area(const double *p, const double *right, const double *left)
+{
+    vec a, b, normal;
+    for (int k = 0; k < 3; ++k) { // differences: the triangle may be small
+        a[k] = right[k] - p[k];
+        b[k] = left[k] - p[k];
+    }
+    cross(a, b, normal);
+    return 2 * atan2(dot(p, normal), 1 + dot(p, right) + dot(right, left) + dot(left, p));
 }
 
 // Corners before and after each edge of a ring of three or more.
 typedef struct sphere_walk {
     const iir_domain *d;
     int id, size, next;
+    int with, after; // the edge's other point, and the one that follows
     vec right, left;
 } sphere_walk;
 
 static sphere_walk walk_begin(const iir_domain *d, int id, int size)
 {
-    sphere_walk w = { .d = d, .id = id, .size = size };
-    corner_of(d, id, d->ring[size - 1], d->ring[0], w.left);
+    sphere_walk w = { .d = d, .id = id, .size = size, .after = d->ring[0] };
+    corner_of(d, id, d->ring[size - 1], w.after, w.left);
     return w;
 }
 
-static bool walk_next(sphere_walk *w, arc *edge, int *with, int *after)
+static bool walk_next(sphere_walk *w)
 {
     if (w->next == w->size)
         return false;
-    const int i = w->next++;
-    *with = w->d->ring[i];
-    *after = w->d->ring[(i + 1) % w->size];
+    ++w->next;
+    w->with = w->after;
+    w->after = w->d->ring[w->next < w->size ? w->next : 0];
     memcpy(w->right, w->left, sizeof w->right);
-    corner_of(w->d, w->id, *with, *after, w->left);
-    const double *p = w->d->points[w->id], *q = w->d->points[*with];
-    // From the point with the smaller id: the same bits from both sides.
-    *edge =
-        w->id < *with ? arc_between(p, q, w->right, w->left) : arc_between(q, p, w->left, w->right);
+    corner_of(w->d, w->id, w->with, w->after, w->left);
     return true;
 }
 
-static void offer_opposite(const iir_domain *d, int p, int q, const double *middle,
-                           domain_cell *cell)
+static void offer_opposite(const iir_domain *d, int p, int q, const bisector *b, domain_cell *cell)
 {
-    const vec at = { -middle[0], -middle[1], -middle[2] };
+    const vec at = { -b->middle[0], -b->middle[1], -b->middle[2] };
     domain_cell_offer(cell, at,
                       fmin(domain_distance2(at, d->points[p]), domain_distance2(at, d->points[q])));
 }
 
-void domain_sphere_rank(const iir_domain *d, int id, int size, domain_cell *cell)
+static void add_edge(const sphere_walk *w, int wanted, domain_cell *cell)
+{
+    const double *p = w->d->points[w->id], *q = w->d->points[w->with];
+    if (dot(w->right, p) > 0.25 && dot(w->left, p) > 0.25) { // as most are
+        if (wanted & DOMAIN_STALE_AREA)
+            cell->area += near_area(p, w->right, w->left);
+        return;
+    }
+    // From the point with the smaller id: the same bits from both sides.
+    const int side = w->id < w->with ? 0 : 1;
+    const bisector b = side ? bisector_of(q, p) : bisector_of(p, q);
+    const place right = place_of(&b, side ? w->left : w->right);
+    const place left = place_of(&b, side ? w->right : w->left);
+    const bool around = goes_around(right, left);
+    if (around && wanted & DOMAIN_STALE_RANK)
+        offer_opposite(w->d, w->id, w->with, &b, cell);
+    if (wanted & DOMAIN_STALE_AREA)
+        cell->area += area_between(b.tangents[side], right, left) + (around ? 2 * M_PI : 0);
+}
+
+// One or two points.
+static void fill_alone(const iir_domain *d, int id, int size, domain_cell *cell)
 {
     const double *p = d->points[id];
+    cell->area = size == 0 ? 4 * M_PI : 2 * M_PI;
     if (size == 0) {
         domain_cell_offer(cell, (vec){ -p[0], -p[1], -p[2] }, 4);
         return;
     }
-    if (size == 1) {
-        const double *q = d->points[d->ring[0]];
-        const bisector b = id < d->ring[0] ? bisector_of(p, q) : bisector_of(q, p);
-        offer_opposite(d, id, d->ring[0], b.middle, cell);
-        return;
-    }
-    arc edge;
-    int with, after;
-    sphere_walk w = walk_begin(d, id, size);
-    while (walk_next(&w, &edge, &with, &after)) {
-        domain_cell_offer(cell, w.left, corner_radius2(d, id, with, after, w.left));
-        if (edge.around)
-            offer_opposite(d, id, with, edge.b.middle, cell);
-    }
+    const int other = d->ring[0];
+    const double *q = d->points[other];
+    const bisector b = id < other ? bisector_of(p, q) : bisector_of(q, p);
+    offer_opposite(d, id, other, &b, cell);
 }
 
-double domain_sphere_area(const iir_domain *d, int id, int size)
+void domain_sphere_fill(const iir_domain *d, int id, int size, int wanted, domain_cell *cell)
 {
-    if (size < 2)
-        return size == 0 ? 4 * M_PI : 2 * M_PI;
-    arc edge;
-    int with, after;
-    double area = 0;
-    sphere_walk w = walk_begin(d, id, size);
-    while (walk_next(&w, &edge, &with, &after)) {
-        const double tangent = edge.b.tangents[id < with ? 0 : 1];
-        area += area_up_to(tangent, edge.angles[1]) - area_up_to(tangent, edge.angles[0]) +
-                (edge.around ? 2 * M_PI : 0);
+    if (size < 2) {
+        fill_alone(d, id, size, cell);
+        return;
     }
-    return area;
+    sphere_walk w = walk_begin(d, id, size);
+    while (walk_next(&w)) {
+        if (wanted & DOMAIN_STALE_RANK)
+            domain_cell_offer(cell, w.left, corner_radius2(d, id, w.with, w.after, w.left));
+        add_edge(&w, wanted, cell);
+    }
 }
