@@ -62,6 +62,16 @@ void hilbert_sort3(const double (*points)[3], std::vector<int> &ids)
                        CGAL::Spatial_sort_traits_adapter_3<kernel, decltype(map)>(map));
 }
 
+// clear() would give the memory back. The caller makes the first vertex again.
+template <typename tds, typename range> void erase_all(tds &t, range &simplices)
+{
+    for (auto i = simplices.begin(); i != simplices.end();)
+        simplices.erase(i++);
+    for (auto i = t.vertices().begin(); i != t.vertices().end();)
+        t.vertices().erase(i++);
+    t.set_dimension(-2);
+}
+
 // ---- the plane -------------------------------------------------------------------------------
 
 struct plane final : delaunay {
@@ -76,7 +86,8 @@ struct plane final : delaunay {
 
     void clear() override
     {
-        t.clear();
+        erase_all(t.tds(), t.tds().faces());
+        t.set_infinite_vertex(t.tds().insert_first());
         t.infinite_vertex()->info() = -1;
     }
 
@@ -224,18 +235,36 @@ struct sphere final : delaunay {
 
     void clear() override
     {
-        t.clear();
+        erase_all(t.tds(), t.tds().faces());
     }
 
     void insert(int id, const double *point, int near) override
     {
         const point3 p = point3_of(point);
-        face visible;
-        if (t.dimension() == 2)
-            visible = conflict(p, near < 0 ? vertex(t.vertices_begin()) : vertices[(size_t) near]);
-        const vertex v = t.insert(p, triangulation::FACE, visible, 0);
+        vertex v;
+        if (t.dimension() < 2)
+            v = t.insert(p, triangulation::OUTSIDE_AFFINE_HULL, face(), 0);
+        else
+            v = star(p,
+                     conflict(p, near < 0 ? vertex(t.vertices_begin()) : vertices[(size_t) near]));
         v->info() = id;
         vertices[(size_t) id] = v;
+    }
+
+    // As CGAL's insert(), with lists that stay.
+    vertex star(const point3 &p, face visible)
+    {
+        seen.clear();
+        border.clear();
+        t.get_conflicts_and_boundary(p, std::back_inserter(seen), std::back_inserter(border),
+                                     visible);
+        for (face f : seen)
+            f->tds_data().clear();
+        const vertex v = t.tds().star_hole(border.begin(), border.end());
+        v->set_point(p);
+        for (face f : seen)
+            t.tds().delete_face(f);
+        return v;
     }
 
     // A facet that the point sees from outside. One at the point nearest to it, but for ties.
@@ -315,6 +344,8 @@ struct sphere final : delaunay {
 
     triangulation t;
     std::vector<vertex> vertices;
+    std::vector<face> seen; // facets that a new point sees from outside
+    std::vector<triangulation::Edge> border;
 };
 
 // ---- tetrahedra ------------------------------------------------------------------------------
@@ -332,7 +363,8 @@ struct tetra final : delaunay {
 
     void clear() override
     {
-        t.clear();
+        erase_all(t.tds(), t.tds().cells());
+        t.set_infinite_vertex(t.tds().insert_increase_dimension());
         t.infinite_vertex()->info() = -1;
     }
 
@@ -465,5 +497,7 @@ fg_status delaunay_remove(delaunay *t, int id)
 
 int delaunay_ring(const delaunay *t, int id, int *ring)
 {
-    return t->ring(id, ring);
+    int size = -1;
+    const fg_status status = guard([&] { size = t->ring(id, ring); });
+    return status == FG_OK ? size : -1;
 }

@@ -20,8 +20,9 @@ FG_BEGIN
 // Predicates are exact. Where four points lie on a circle, plane and sphere choose as if points
 // were moved a little, the same way whatever the order in which they came.
 //
-// Memory: what removed points leave is used again, by delaunay_clear() too. CGAL keeps a few lists
-// inside of each call on the sphere and in space, so calls allocate there, but nothing grows.
+// Memory: what removed points leave is used again, by delaunay_clear() too. CGAL makes a few lists
+// while it removes a point, in space also while it inserts one or looks for a ring, and a list of
+// the points on the hull of the plane that it inserts one beyond; they do not outlive the call.
 typedef enum delaunay_kind {
     DELAUNAY_PLANE = 0, // points[2] is not looked at
     DELAUNAY_SPHERE,
@@ -50,6 +51,8 @@ FG_NODISCARD fg_status delaunay_remove(delaunay *t, int id);
 // the point; the last is followed by the first. -1 stands for what lies beyond the hull of the
 // plane, between any two neighbours if all points are on a line. On the sphere two points have each
 // other and one has none; four in one plane or more may come twice from DELAUNAY_TETRA.
+//
+// -1: memory ran out; DELAUNAY_TETRA only.
 int delaunay_ring(const delaunay *t, int id, int *ring);
 
 FG_END

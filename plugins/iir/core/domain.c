@@ -167,21 +167,6 @@ static void make_ring_stale(iir_domain *d, int size)
             make_stale(d, d->ring[i]);
 }
 
-// The ring of a corner into d->ring, from its smallest entry on.
-static int load_ring(iir_domain *d, int id)
-{
-    int least = 0;
-    const int size = delaunay_ring(d->net, id, d->ring);
-    for (int i = 1; i < size; ++i)
-        if (d->ring[i] < d->ring[least])
-            least = i;
-    const size_t head = (size_t) least * sizeof *d->ring;
-    const size_t tail = (size_t) (size - least) * sizeof *d->ring;
-    memcpy(d->ring + size, d->ring, head);
-    memmove(d->ring, d->ring + least, tail + head);
-    return size;
-}
-
 static fg_status give_up(iir_domain *d, fg_status status)
 {
     d->broken = true;
@@ -194,6 +179,26 @@ static fg_status mend(iir_domain *d)
     const fg_status status = d->broken ? delaunay_clear(d->net) : FG_OK;
     d->broken = status != FG_OK;
     return status;
+}
+
+// The ring of a corner into d->ring, from its smallest entry on. None, and the domain is empty,
+// where memory runs out.
+static int load_ring(iir_domain *d, int id)
+{
+    int least = 0;
+    const int size = delaunay_ring(d->net, id, d->ring);
+    if (size < 0) {
+        (void) !give_up(d, FG_ERR_MEMORY);
+        return 0;
+    }
+    for (int i = 1; i < size; ++i)
+        if (d->ring[i] < d->ring[least])
+            least = i;
+    const size_t head = (size_t) least * sizeof *d->ring;
+    const size_t tail = (size_t) (size - least) * sizeof *d->ring;
+    memcpy(d->ring + size, d->ring, head);
+    memmove(d->ring, d->ring + least, tail + head);
+    return size;
 }
 
 static fg_status insert_corner(iir_domain *d, int id)

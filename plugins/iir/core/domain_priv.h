@@ -59,8 +59,8 @@ struct iir_domain {
     domain_grid grid;
 };
 
-// Fills what is wanted (DOMAIN_STALE_*) of a cell but `near`, from d->ring; `empty` is negative before
-// and the area 0.
+// Fills what is wanted (DOMAIN_STALE_*) of a cell but `near`, from d->ring; `empty` is negative
+// before and the area 0.
 void domain_disc_fill(const iir_domain *d, int id, int size, int wanted, domain_cell *cell);
 void domain_sphere_fill(const iir_domain *d, int id, int size, int wanted, domain_cell *cell);
 
