@@ -12,11 +12,13 @@ static fg_status run_direct(const fg_run *run, void *user)
     const ag_gbuffer *in = &pass->gbuffer;
     const bool lit = pass->shadows.id && fg_run_object(run, pass->shadows);
     const bool emits = in->emissive.id != 0;
+    static const char *const defines[2][3] = {
+        { "", "LIGHTS=1", "LIGHTS=1;TAPS=16" },
+        { "EMISSIVE=1", "LIGHTS=1;EMISSIVE=1", "LIGHTS=1;EMISSIVE=1;TAPS=16" },
+    };
     const fg_gl_program_desc desc = {
         .shaders = { &direct_comp },
-        .defines = lit     ? (emits ? "LIGHTS=1;EMISSIVE=1" : "LIGHTS=1")
-                   : emits ? "EMISSIVE=1"
-                           : "",
+        .defines = defines[emits][lit ? 1 + (pass->taps == 16) : 0],
     };
     const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
     if (!program)
@@ -42,15 +44,20 @@ static fg_status run_direct(const fg_run *run, void *user)
 }
 
 void ag_direct_declare(ag_direct_pass *pass, fg_graph *g, const ag_gpu_scene *gpu,
-                       const ag_scene_res *scene, const ag_gbuffer *gbuffer, fg_res shadows)
+                       const ag_direct_desc *desc)
 {
+    const ag_scene_res *scene = desc->scene;
+    const ag_gbuffer *gbuffer = desc->gbuffer;
     *pass = (ag_direct_pass){
         .gpu = gpu,
         .scene = *scene,
         .gbuffer = *gbuffer,
-        .shadows = shadows,
+        .shadows = desc->shadows,
+        .taps = desc->taps,
         .out = fg_texture(g, "direct.radiance", &(fg_tex_desc){ .format = FG_RGBA32F }),
     };
+    if (desc->taps != 0 && desc->taps != 4 && desc->taps != 16)
+        fg_fail(g, "direct: taps is %d, must be 4 or 16", desc->taps);
     const fg_pass_desc light = {
         .name = "direct.light",
         .kind = FG_KIND_COMPUTE,
@@ -63,7 +70,7 @@ void ag_direct_declare(ag_direct_pass *pass, fg_graph *g, const ag_gpu_scene *gp
             { scene->lights, FG_USE_STORAGE },
             { scene->faces, FG_USE_STORAGE },
             { gbuffer->emissive, .optional = true },
-            { shadows, .optional = true },
+            { desc->shadows, .optional = true },
         },
         .writes = { { pass->out, FG_USE_IMAGE, FG_LOAD_DISCARD } },
         .run = run_direct,

@@ -3,7 +3,7 @@
 // Light that surfaces emit and reflect of punctual lights.
 // In:  G-buffer; lights, faces; shadow maps DEPTH32F, a layer a face
 // Out: radiance RGBA32F, W/(m^2 sr); a 1
-// LIGHTS: there are some. EMISSIVE: the G-buffer has emission.
+// LIGHTS: there are some. EMISSIVE: the G-buffer has emission. TAPS: of the shadows' filter, 4 or 16.
 #include "passes/include/pass/view_shared.h"
 #include "passes/include/pass/scene_shared.h"
 #include "passes/shading/octahedral.glsl"

@@ -38,6 +38,7 @@ typedef struct options {
     int frame;                                    // -1: not given
     int frames;                                   // 0: not given
     int timing_frames;                            // 0: not given
+    int shadow_size, shadow_taps;                 // 0: not given
     const char *layer, *format, *filter, *budget; // NULL: not given
     const char *output, *stats, *plugin_dir, *shader_dir, *camera;
     bool camera_at_given;
@@ -93,7 +94,7 @@ extern const command command_render, command_sequence, command_reference, comman
 // What an option name stands for.
 #define OPTIONS_SCENE " --camera --camera-at --light "
 #define OPTIONS_GPU " --device --shader-dir --plugin-dir --debug "
-#define OPTIONS_FRAME " --gi --set --size --seed --exposure --needs "
+#define OPTIONS_FRAME " --gi --set --size --seed --exposure --shadow-size --shadow-taps --needs "
 
 // Parses the words after the command's name. EXIT_DONE or EXIT_USAGE.
 int options_parse(cli *c, const command *cmd, int argc, char **argv, options *out);

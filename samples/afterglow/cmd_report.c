@@ -59,7 +59,8 @@ const command command_report = {
         "them.\n"
         "report --merge DIR... -o DIR joins what --shard I/N runs have written.",
     .option_names = OPTIONS_SCENE OPTIONS_GPU
-    " --gi --set --size --seed --budget --study --spp --shard --merge --output ",
+    " --gi --set --size --seed --shadow-size --shadow-taps --budget --study --spp --shard --merge "
+    "--output ",
     .max_operands = -1,
     .run = run,
 };

@@ -410,6 +410,8 @@ renderer_desc host_renderer_desc(const host *h, const setting *s, int width, int
         .needs_all = h->o->needs_all,
         .debug = h->o->debug,
         .seed = h->o->seed,
+        .shadow_size = h->o->shadow_size,
+        .shadow_taps = h->o->shadow_taps,
     };
 }
 

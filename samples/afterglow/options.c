@@ -129,6 +129,8 @@ typedef enum option_id {
     OPT_LIGHT,
     OPT_SEED,
     OPT_EXPOSURE,
+    OPT_SHADOW_SIZE,
+    OPT_SHADOW_TAPS,
     OPT_DEVICE,
     OPT_DEBUG,
     OPT_NEEDS,
@@ -188,6 +190,10 @@ static const option table[] = {
       "seed of all randomness (0)" },
     { OPT_EXPOSURE, "--exposure", NULL, "X", "a number from 1e-9 to 1e9",
       "factor before the tone curve (1)" },
+    { OPT_SHADOW_SIZE, "--shadow-size", NULL, "N", "a whole number from 1 to 8192",
+      "texels along a side of direct light's shadow maps (2048; of 5 maps on 1024, of 25 on 512)" },
+    { OPT_SHADOW_TAPS, "--shadow-taps", NULL, "N", "4 or 16",
+      "texels that a lookup of direct light's shadows filters (4)" },
     { OPT_DEVICE, "--device", NULL, "N", "a whole number from 0 to 64",
       "the n-th device that 'afterglow info' lists; 0: the first that works" },
     { OPT_DEBUG, "--debug", NULL, "LIST",
@@ -234,6 +240,11 @@ static bool set_exposure(options *o, const char *text)
     return true;
 }
 
+static bool set_taps(const char *text, int *out)
+{
+    return set_number(text, 4, 16, out) && (*out == 4 || *out == 16);
+}
+
 static bool set_flag(bool *flag)
 {
     *flag = true;
@@ -249,6 +260,8 @@ static bool apply_number(options *o, option_id id, const char *v)
     case OPT_TIMING_FRAMES: return set_number(v, 1, 10000, &o->timing_frames);
     case OPT_SEED: return set_seed(o, v);
     case OPT_EXPOSURE: return set_exposure(o, v);
+    case OPT_SHADOW_SIZE: return set_number(v, 1, 8192, &o->shadow_size);
+    case OPT_SHADOW_TAPS: return set_taps(v, &o->shadow_taps);
     case OPT_DEVICE: return set_number(v, 0, 64, &o->device);
     case OPT_BOUNCES: return set_number(v, 0, 64, &o->bounces);
     case OPT_SPP: return set_number(v, 1, 1048576, &o->spp);

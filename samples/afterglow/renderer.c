@@ -294,8 +294,9 @@ static fg_status declare(renderer *r)
     fg_graph_begin(g, &frame);
     const ag_scene_res scene = ag_gpu_scene_import(r->gpu, g);
     ag_gbuffer_declare(&r->gbuffer, g, r->gpu, &scene);
-    ag_shadow_declare(&r->shadow, g, r->gpu, &scene, 0);
-    ag_direct_declare(&r->direct, g, r->gpu, &scene, &r->gbuffer.out, r->shadow.maps);
+    ag_shadow_declare(&r->shadow, g, r->gpu, &scene, r->desc.shadow_size);
+    const ag_direct_desc direct = { &scene, &r->gbuffer.out, r->shadow.maps, r->desc.shadow_taps };
+    ag_direct_declare(&r->direct, g, r->gpu, &direct);
     declare_plugin(r, &scene, &gi);
     declare_output(r, &scene, &gi);
     const fg_res layers[] = {

@@ -44,6 +44,8 @@ typedef struct renderer_desc {
     uint64_t seed;
     void (*inspect)(void *user, const fg_written *written);
     void *inspect_user;
+    // Of direct light, as ag_shadow_declare() and ag_direct_desc have them; 0: their defaults.
+    int shadow_size, shadow_taps;
 } renderer_desc;
 
 FG_NODISCARD fg_status renderer_create(const renderer_desc *desc, renderer **out);

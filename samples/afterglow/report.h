@@ -7,7 +7,8 @@
 // Error against run time. A report is one JSON document from first to last: measuring and merging
 // make it, and all that is written (CSV, plots, the page) is drawn from it.
 //
-//   { "afterglow": version, "budget", "size": [w, h], "seed", "shard": [i, n] or null, "notes": [],
+//   { "afterglow": version, "budget", "size": [w, h], "seed", "shard": [i, n] or null,
+//     "shadow": [size or 0, taps] of direct light, "notes": [],
 //     "scenes": [ { "name", "triangles", "exposure",
 //                   "references": [ { "name": "path1", "spp", "noise", "rms", "mean", "image" } ],
 //                   "not_served": [ { "plugin", "lacks" } ],

@@ -230,6 +230,8 @@ static cJSON *new_document(const measure *m)
     cJSON_AddItemToObject(doc, "size", cJSON_CreateIntArray((int[]){ m->width, m->height }, 2));
     cJSON_AddNumberToObject(doc, "error_frame", m->budget->error_frames - 1);
     cJSON_AddNumberToObject(doc, "seed", (double) o->seed);
+    const int shadow[2] = { o->shadow_size, o->shadow_taps ? o->shadow_taps : 4 };
+    cJSON_AddItemToObject(doc, "shadow", cJSON_CreateIntArray(shadow, 2));
     if (o->shards)
         cJSON_AddItemToObject(doc, "shard",
                               cJSON_CreateIntArray((int[]){ o->shard, o->shards }, 2));

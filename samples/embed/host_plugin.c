@@ -130,7 +130,8 @@ static fg_status declare(host *h)
     const ag_scene_res scene = ag_gpu_scene_import(h->gpu, g);
     ag_gbuffer_declare(&h->gbuffer, g, h->gpu, &scene);
     ag_shadow_declare(&h->shadow, g, h->gpu, &scene, 0);
-    ag_direct_declare(&h->direct, g, h->gpu, &scene, &h->gbuffer.out, h->shadow.maps);
+    const ag_direct_desc direct = { &scene, &h->gbuffer.out, h->shadow.maps, 0 };
+    ag_direct_declare(&h->direct, g, h->gpu, &direct);
     const gi_inputs in = { WIDTH, HEIGHT, h->gbuffer.out, scene, h->direct.out };
     h->plugin->declare(h->technique, g, &in, &out);
     h->compose = (ag_compose_pass){ scene.view,   h->direct.out, h->gbuffer.out.albedo,

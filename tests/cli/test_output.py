@@ -155,6 +155,20 @@ def direct_light_is_that_of_the_reference(folder):
     assert abs(m['energy_ratio'] - 1) < 0.005, m
 
 
+def shadow_maps_and_their_filter_are_chosen(folder):
+    def picture(*extra):
+        path = folder + '/a.pfm'
+        succeeds('render', 'cornell', '--layer', 'direct', '--size', '64x64', *extra, '-o', path)
+        return open(path, 'rb').read()
+    plain = picture()
+    assert picture('--shadow-size', 2048, '--shadow-taps', 4) == plain
+    assert picture('--shadow-taps', 16) != plain
+    assert picture('--shadow-size', 64) != plain
+    graph = json.loads(succeeds('graph', 'cornell', '--shadow-size', 64, '--format', 'json').out)
+    shapes = [r['shape'] for r in graph['resources'] if r['name'] == 'shadow.maps']
+    assert shapes and all(shape.startswith('DEPTH32F 64x64') for shape in shapes), shapes
+
+
 def the_graph_is_printed_in_every_format(folder):
     common = ['graph', 'cornell', '--gi', 'rsm', '--size', '16x16']
     text = succeeds(*common).out
@@ -216,5 +230,5 @@ if __name__ == '__main__':
           the_same_frame_is_the_same_bits, debug_switches_change_nothing, odd_sizes_are_rendered,
           every_layer_can_be_had, stats_have_the_shape_that_is_promised, a_sequence_takes_turns,
           a_pipe_gets_the_whole_of_it, frame_n_is_the_nth_of_a_sequence, the_reference_depends_on_the_seed_alone,
-          direct_light_is_that_of_the_reference, the_graph_is_printed_in_every_format,
+          direct_light_is_that_of_the_reference, shadow_maps_and_their_filter_are_chosen, the_graph_is_printed_in_every_format,
           plugins_scenes_and_info_are_json, a_scene_in_the_dark_gets_a_light_and_a_warning])

@@ -53,6 +53,12 @@ def bad_values_name_option_value_and_rule(folder):
     fails(2, ['--budget', 'huge'], 'report', '--budget', 'huge', '-o', folder + '/r')
     fails(2, ['--study', 'stages, eye_depth', "'eye'"], 'report', '--study', 'eye', '-o', folder + '/r')
     fails(2, ['--shard', '3/2'], 'report', '--shard', '3/2', '-o', folder + '/r')
+    for size in ['0', '8193', '-1', 'big', '']:
+        fails(2, ['--shadow-size', "'%s'" % size, 'from 1 to 8192'], 'render', 'cornell', '--shadow-size', size, '-o',
+              picture)
+    for taps in ['0', '1', '5', '15', '17', '4x', '']:
+        fails(2, ['--shadow-taps', "'%s'" % taps, 'must be 4 or 16'], 'graph', 'cornell', '--shadow-taps', taps)
+    fails(2, ['--shadow-taps', 'unknown option'], 'reference', 'cornell', '--shadow-taps', 16, '-o', picture)
     fails(2, ['device is 60', 'must be'], 'render', 'cornell', '--size', '4x4', '--device', 60, '-o', picture)
     assert not os.path.exists(picture)
 

@@ -75,6 +75,7 @@ typedef struct shot {
     const gi_plugin *plugin;
     const char *const *settings; // "key=value", NULL ends
     capture *captures;           // ends at a NULL name
+    int shadow_size, shadow_taps;
 } shot;
 image shot_take(const shot *s);
 

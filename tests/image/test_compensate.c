@@ -165,7 +165,8 @@ static void declare(corner *c, const way *w)
     ag_gbuffer_declare(&c->gbuffer, g, c->gpu, &res);
     const ag_gbuffer *gbuffer = &c->gbuffer.out;
     ag_shadow_declare(&c->shadow, g, c->gpu, &res, 0);
-    ag_direct_declare(&c->direct, g, c->gpu, &res, gbuffer, c->shadow.maps);
+    const ag_direct_desc direct = { &res, gbuffer, c->shadow.maps, 0 };
+    ag_direct_declare(&c->direct, g, c->gpu, &direct);
     ag_split_declare(&c->split, g, &res, gbuffer, &(ag_split_desc){ "t", tiles, EDGE, EDGE });
     ag_gather_declare(&c->gather, g, &res, gbuffer, &c->vpl, &gather);
     ag_combine_declare(&c->combine, g, &c->split, c->gather.out);

@@ -33,11 +33,22 @@ static double irradiance(const ag_light *light, const double p[3], const double 
     return (double) light->intensity[0] * fade * fmax(facing, 0) / square;
 }
 
+static image render_direct(ag_scene *scene, int shadow_size, int taps)
+{
+    const shot s = { .scene = scene,
+                     .width = SIZE,
+                     .height = SIZE,
+                     .layer = LAYER_DIRECT,
+                     .shadow_size = shadow_size,
+                     .shadow_taps = taps };
+    return shot_take(&s);
+}
+
 // Largest deviation of a pixel over the brightest value there is.
-static double worst_deviation(ag_scene *scene)
+static double worst_deviation(ag_scene *scene, int taps)
 {
     image albedo = render_layer(scene, SIZE, SIZE, LAYER_ALBEDO, NULL, NULL);
-    image direct = render_layer(scene, SIZE, SIZE, LAYER_DIRECT, NULL, NULL);
+    image direct = render_direct(scene, 0, taps);
     image position = render_layer(scene, SIZE, SIZE, LAYER_POSITION, NULL, NULL);
     image normal = render_layer(scene, SIZE, SIZE, LAYER_NORMAL, NULL, NULL);
     double worst = 0, brightest = 0;
@@ -69,9 +80,12 @@ static void expect_room(const ag_light *light, double edge)
         scaled.intensity[k] *= (float) (edge * edge);
     const room_desc room = { .edge = edge };
     ag_scene *scene = room_scene(&room, &scaled);
-    const double worst = worst_deviation(scene);
-    if (worst > bound)
-        fail_msg("edge %g: worst pixel is off by %g of the maximum", edge, worst);
+    for (int taps = 4; taps <= 16; taps += 12) {
+        const double worst = worst_deviation(scene, taps);
+        if (worst > bound)
+            fail_msg("edge %g, %d taps: worst pixel is off by %g of the maximum", edge, taps,
+                     worst);
+    }
     ag_scene_destroy(scene);
 }
 
@@ -136,7 +150,8 @@ static void directional_light_on_a_floor_casts_no_shadow(void **state)
         camera.world[15] = 1;
         ag_builder_camera(b, -1, &camera);
         ag_scene *scene = finish_scene(b);
-        assert_true(worst_deviation(scene) <= bound);
+        assert_true(worst_deviation(scene, 4) <= bound);
+        assert_true(worst_deviation(scene, 16) <= bound);
         ag_scene_destroy(scene);
     }
 }
@@ -173,18 +188,17 @@ static bool blocked(const double from[3], const double to[3], double margin)
            segment_meets_box(from, to, blocks[1][0], blocks[1][1], margin);
 }
 
-static void blocks_shadow_what_lies_behind_them_and_nothing_else(void **state)
+static void expect_blocks(int taps)
 {
-    (void) state;
     const ag_light light = ceiling_spot(58);
     const room_desc room = { .boxes = true };
     ag_scene *scene = room_scene(&room, &light);
-    image direct = render_layer(scene, SIZE, SIZE, LAYER_DIRECT, NULL, NULL);
+    image direct = render_direct(scene, 0, taps);
     image position = render_layer(scene, SIZE, SIZE, LAYER_POSITION, NULL, NULL);
     image normal = render_layer(scene, SIZE, SIZE, LAYER_NORMAL, NULL, NULL);
     image albedo = render_layer(scene, SIZE, SIZE, LAYER_ALBEDO, NULL, NULL);
     // A texel is 2 tan(58 deg) / 2048 of the way from the light, 1 at most.
-    const double margin = 4 * 2 * 1.6 / 2048;
+    const double margin = (taps == 16 ? 8 : 4) * 2 * 1.6 / 2048;
     int dark = 0, lit = 0, leaks = 0, acne = 0;
     for (int i = 0; i < 3 * SIZE * SIZE; i += 3) {
         double p[3], n[3], q[3];
@@ -215,6 +229,127 @@ static void blocks_shadow_what_lies_behind_them_and_nothing_else(void **state)
     image_finish(&normal);
     image_finish(&albedo);
     ag_scene_destroy(scene);
+}
+
+static void blocks_shadow_what_lies_behind_them_and_nothing_else(void **state)
+{
+    (void) state;
+    expect_blocks(4);
+    expect_blocks(16);
+}
+
+// Where wall and floor meet the filter takes in the other; the light grazes the wall at a tangent
+// of up to 0.97 / 0.04 = 24.
+static void a_grazed_wall_is_lit_down_to_the_floor(void **state)
+{
+    (void) state;
+    ag_light light = ceiling_spot(58);
+    light.position[0] = -0.46;
+    ag_scene *scene = room_scene(&(room_desc){ 0 }, &light);
+    image direct = render_direct(scene, 0, 16);
+    image position = render_layer(scene, SIZE, SIZE, LAYER_POSITION, NULL, NULL);
+    const double normal[3] = { 1, 0, 0 };
+    int seen = 0;
+    for (int i = 0; i < 3 * SIZE * SIZE; i += 3) {
+        const double p[3] = { (double) position.rgb[i], (double) position.rgb[i + 1],
+                              (double) position.rgb[i + 2] };
+        const double want = 0.5 / pi * irradiance(&scene->lights[0], p, normal);
+        if (p[0] > -0.4999 || p[1] < -0.4999 || p[2] < -0.4999 || want < 1e-3)
+            continue;
+        seen++;
+        // Positions are off by 3e-8, of 0.04 from the light's plane.
+        if (fabs((double) direct.rgb[i] - want) > 1e-4 * want)
+            fail_msg("at %g %g %g it is %g, not %g", p[0], p[1], p[2], (double) direct.rgb[i],
+                     want);
+    }
+    assert_true(seen > 1000);
+    image_finish(&direct);
+    image_finish(&position);
+    ag_scene_destroy(scene);
+}
+
+// ---- the edge of a half plane's shadow --------------------------------------------------------
+//
+// A point light at the origin over a floor at y = -0.5. The first face of its map looks down, the
+// second along `across`: passes/gpu_scene/light_faces.c turns them by the golden section. A half
+// plane halfway up casts a shadow on what lies further than `edge` in that direction.
+
+enum { EDGE_SIZE = 64 };
+static const double across[3] = { 0.52573111211913361, 0, 0.85065080835203993 };
+static const double texel = 2 * 0.5 / EDGE_SIZE; // on the floor, in the first face
+
+static ag_scene *edge_scene(double edge)
+{
+    const double floor_at[3] = { -2, -0.5, -2 }, z[3] = { 0, 0, 4 }, x[3] = { 4, 0, 0 };
+    const double along[3] = { 2 * across[2], 0, -2 * across[0] };
+    double corner[3];
+    ag_builder *b = ag_builder_create(test_log(), "edge");
+    ag_material white = ag_default_material();
+    white.metallic = 0;
+    const int material = ag_builder_material(b, &white);
+    for (int k = 0; k < 3; k++)
+        corner[k] = 0.5 * edge * across[k] - 0.5 * along[k] - (k == 1 ? 0.25 : 0);
+    add_quad(b, material, floor_at, z, x);
+    add_quad(b, material, corner, across, along);
+    const ag_light light = { .name = "lamp", .direction = { 0, -1, 0 }, .intensity = { 1, 1, 1 } };
+    ag_builder_light(b, -1, &light);
+    // Under the half plane, looking down on the edge.
+    ag_camera camera = { .name = "under", .yfov = 1.2f, .znear = 0.01f };
+    for (int k = 0; k < 3; k++) {
+        camera.world[k] = across[k];
+        camera.world[4 + k] = 0.5 * along[k];
+        camera.world[8 + k] = k == 1;
+        camera.world[12 + k] = edge * across[k] - (k == 1 ? 0.3 : 0);
+    }
+    camera.world[15] = 1;
+    ag_builder_camera(b, -1, &camera);
+    return finish_scene(b);
+}
+
+// Fraction of light by filtering over `width` texels in the first face, the second being dark.
+static double filtered(double s, double edge, double width)
+{
+    const double beyond = s > 0.5 ? (1 - 0.5 / s) * EDGE_SIZE / 2 // texels of the second face
+                                  : (s - 0.5) / texel;
+    return fmin(fmax(0.5 + ((edge - 0.5) / texel - beyond) / width, 0), 1);
+}
+
+static void expect_edge(double edge, int taps)
+{
+    ag_scene *scene = edge_scene(edge);
+    image direct = render_direct(scene, EDGE_SIZE, taps);
+    image position = render_layer(scene, SIZE, SIZE, LAYER_POSITION, NULL, NULL);
+    int between = 0;
+    for (int i = 0; i < 3 * SIZE * SIZE; i += 3) {
+        const double p[3] = { (double) position.rgb[i], (double) position.rgb[i + 1],
+                              (double) position.rgb[i + 2] };
+        const double up[3] = { 0, 1, 0 }, s = p[0] * across[0] + p[2] * across[2];
+        const double got = (double) direct.rgb[i] * pi / irradiance(&scene->lights[0], p, up);
+        const double want = filtered(s, edge, taps == 16 ? 3 : 1);
+        // Positions are floats: 1e-7 of a texel of 0.015; and half a dozen
+        // roundings.
+        if (fabs(got - want) > 2e-5)
+            fail_msg("%d taps, edge %g: at %g it is %g, not %g", taps, edge, s, got, want);
+        between += want > 0 && want < 1;
+    }
+    assert_true(between > SIZE); // a row at least
+    image_finish(&direct);
+    image_finish(&position);
+    ag_scene_destroy(scene);
+}
+
+static void a_shadows_edge_is_a_ramp_as_wide_as_the_filter(void **state)
+{
+    (void) state;
+    expect_edge(12 * texel, 4);
+    expect_edge(12 * texel, 16);
+}
+
+// With the texels of one face alone the light would be cut off there.
+static void the_wide_filter_crosses_the_seam_of_two_faces(void **state)
+{
+    (void) state;
+    expect_edge(0.5, 16);
 }
 
 static void sphere_about_its_light_is_uniform(void **state)
@@ -268,6 +403,9 @@ int main(void)
         cmocka_unit_test(acne_does_not_come_with_scale),
         cmocka_unit_test(directional_light_on_a_floor_casts_no_shadow),
         cmocka_unit_test(blocks_shadow_what_lies_behind_them_and_nothing_else),
+        cmocka_unit_test(a_grazed_wall_is_lit_down_to_the_floor),
+        cmocka_unit_test(a_shadows_edge_is_a_ramp_as_wide_as_the_filter),
+        cmocka_unit_test(the_wide_filter_crosses_the_seam_of_two_faces),
         cmocka_unit_test(sphere_about_its_light_is_uniform),
         cmocka_unit_test(emission_is_seen_from_the_front_alone),
     };

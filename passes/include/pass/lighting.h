@@ -31,22 +31,33 @@ FG_API void ag_shadow_declare(ag_shadow_pass *pass, fg_graph *g, const ag_gpu_sc
 // Emission and the reflection of punctual lights: pass "direct.light".
 //
 // A surface counts by its shading normal n, on the side that is seen: albedo / pi E max(0, n . l).
-// A light behind the triangle's own plane gives nothing. Shadows by 2 x 2 percentage closer
-// filtering against the receiver's plane.
+// A light behind the triangle's own plane gives nothing. Shadows by percentage closer filtering
+// against the receiver's plane: their edges are 1 texel of the shadow map wide with 4 taps, 3
+// with 16.
 //
 // Shapes: out RGBA32F of the frame's size; a 1.
 // Units:  radiance, W/(m^2 sr).
+// Source: Reeves, Salesin, Cook. Rendering Antialiased Shadows with Depth Maps. SIGGRAPH 1987.
+//         Departs from it: the taps are the texels around the point, not random ones.
 typedef struct ag_direct_pass {
     const ag_gpu_scene *gpu;
     ag_scene_res scene;
     ag_gbuffer gbuffer;
     fg_res shadows;
+    int taps;
     fg_res out;
 } ag_direct_pass;
 
-// `shadows` may have been left out or be null: nothing is shadowed then, and there is no light.
+typedef struct ag_direct_desc {
+    const ag_scene_res *scene; // read now, as the next
+    const ag_gbuffer *gbuffer;
+    fg_res shadows; // may have been left out or be null: nothing is shadowed then, and there is no
+                    // light
+    int taps;       // of the filter: 4 (or 0), 16
+} ag_direct_desc;
+
 FG_API void ag_direct_declare(ag_direct_pass *pass, fg_graph *g, const ag_gpu_scene *gpu,
-                              const ag_scene_res *scene, const ag_gbuffer *gbuffer, fg_res shadows);
+                              const ag_direct_desc *desc);
 
 FG_END
 
