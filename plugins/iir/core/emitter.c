@@ -133,16 +133,21 @@ bool iir_emitter_from_light(const ag_light *light, const double box_min[3], cons
     return out->power[0] + out->power[1] + out->power[2] > 0;
 }
 
+static bool same(const double *a, const double *b, int count)
+{
+    int equal = 0;
+    while (equal < count && a[equal] == b[equal])
+        equal++;
+    return equal == count;
+}
+
 bool iir_emitter_equal(const iir_emitter *a, const iir_emitter *b)
 {
-    return a->kind == b->kind && a->cosine == b->cosine &&
-           memcmp(a->position, b->position, sizeof a->position) == 0 &&
-           memcmp(a->axes, b->axes, sizeof a->axes) == 0 &&
-           memcmp(&a->radius, &b->radius, sizeof a->radius) == 0 &&
-           memcmp(&a->flat, &b->flat, sizeof a->flat) == 0 &&
-           memcmp(&a->rim, &b->rim, sizeof a->rim) == 0 &&
-           memcmp(&a->ramp, &b->ramp, sizeof a->ramp) == 0 &&
-           memcmp(a->power, b->power, sizeof a->power) == 0;
+    return a->kind == b->kind && a->cosine == b->cosine && a->radius == b->radius &&
+           a->flat == b->flat && a->rim == b->rim && a->ramp == b->ramp &&
+           same(a->position, b->position, 3) && same(a->axes[0], b->axes[0], 3) &&
+           same(a->axes[1], b->axes[1], 3) && same(a->axes[2], b->axes[2], 3) &&
+           same(a->power, b->power, 3);
 }
 
 // ---- there and back ---------------------------------------------------------------------------

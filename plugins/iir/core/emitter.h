@@ -39,7 +39,7 @@ typedef struct iir_emitter {
 bool iir_emitter_from_light(const ag_light *light, const double box_min[3], const double box_max[3],
                             iir_emitter *out);
 
-// Whether two are the same to the bit: nothing has moved.
+// Whether two are exactly the same: nothing has moved.
 bool iir_emitter_equal(const iir_emitter *a, const iir_emitter *b);
 
 // Where a place in the world lies in the domain. False outside of the cone (or of the disc's rim,
