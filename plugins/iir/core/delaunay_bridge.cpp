@@ -317,7 +317,7 @@ struct sphere final : delaunay {
         for (auto v = t.vertices_begin(); v != t.vertices_end(); ++v)
             if (v->info() != id)
                 rest[count++] = { v->info(), v->point() };
-        t.clear();
+        clear();
         for (size_t i = 0; i < count; ++i) {
             const point3 &p = rest[i].second;
             const double at[3] = { p.x(), p.y(), p.z() };

@@ -205,7 +205,7 @@ static fg_status insert_corner(iir_domain *d, int id)
 {
     // Points mostly come to the centre of the largest empty circle.
     int near = d->empty.nodes[1];
-    if (near >= 0 && d->twin[near] != DOMAIN_CORNER)
+    if (near >= 0 && (near == id || d->twin[near] != DOMAIN_CORNER))
         near = -1;
     const fg_status status = delaunay_insert(d->net, id, d->points[id], near);
     if (status != FG_OK)
@@ -214,13 +214,15 @@ static fg_status insert_corner(iir_domain *d, int id)
     domain_grid_add(&d->grid, d->points[id], id);
     make_stale(d, id);
     make_ring_stale(d, load_ring(d, id));
-    return FG_OK;
+    return d->broken ? FG_ERR_MEMORY : FG_OK;
 }
 
 static fg_status remove_corner(iir_domain *d, int id)
 {
     make_stale(d, id);
     make_ring_stale(d, load_ring(d, id));
+    if (d->broken)
+        return FG_ERR_MEMORY;
     domain_grid_remove(&d->grid, d->points[id], id);
     d->twin[id] = DOMAIN_ABSENT;
     const fg_status status = delaunay_remove(d->net, id);
@@ -364,6 +366,8 @@ static void refresh_cell(iir_domain *d, int id, int wanted)
         return;
     domain_cell *cell = &d->cells[id];
     const int size = load_ring(d, id);
+    if (d->broken)
+        return;
     if (wanted & DOMAIN_STALE_RANK) {
         find_near(d, id, size, cell->near);
         cell->empty = -1;
