@@ -7,16 +7,12 @@
 // products.
 // Source: of the products: Davidovic et al. 3D Rasterization: A Bridge between Rasterization and Ray
 //         Casting. GI 2012.
+//
+// Buffers are read as textures: where a CPU renders, that costs a quarter of a storage block's loads.
 #include "passes/paraboloid/draw_shared.h"
 
-layout(std430, binding = 0) readonly buffer triangle_buffer
-{
-    shadow_triangle triangles[];
-};
-layout(std430, binding = 1) readonly buffer eye_buffer
-{
-    shadow_eye eyes[];
-};
+layout(binding = 0) uniform samplerBuffer triangle_texels; // shadow_triangle[]
+layout(binding = 1) uniform samplerBuffer eye_texels;      // shadow_eye[]
 
 // An eye that is nearer to a triangle's plane than this does not know by its numbers on which side it
 // is. Places are known to some 2^-24.
@@ -28,19 +24,34 @@ const float reach = 1.5;
 // Half floats end at 65504.
 const float most = 65504.0;
 
+shadow_triangle fetch_triangle(int i)
+{
+    return shadow_triangle(texelFetch(triangle_texels, 3 * i), texelFetch(triangle_texels, 3 * i + 1),
+                           texelFetch(triangle_texels, 3 * i + 2));
+}
+
+shadow_eye fetch_eye(int i)
+{
+    return shadow_eye(texelFetch(eye_texels, 3 * i), texelFetch(eye_texels, 3 * i + 1),
+                      texelFetch(eye_texels, 3 * i + 2));
+}
+
 // Corners in the frame of the eye, and the sense in which they go round.
 struct seen {
     vec3 a, b, c;
     float turn; // 1: counter-clockwise from the eye; -1
 };
 
-seen see(int triangle, int map)
+vec3 turned(vec3 p, shadow_eye e, vec3 bitangent)
 {
-    shadow_triangle t = triangles[triangle];
-    shadow_eye e = eyes[map];
-    precise vec3 a = (t.a.xyz - e.high.xyz) - e.low.xyz;
-    precise vec3 b = (t.b.xyz - e.high.xyz) - e.low.xyz;
-    precise vec3 c = (t.c.xyz - e.high.xyz) - e.low.xyz;
+    precise vec3 q = vec3(dot(p, e.tangent.xyz), dot(p, bitangent), dot(p, e.normal.xyz));
+    return q;
+}
+
+seen see(shadow_triangle t, shadow_eye e)
+{
+    precise vec3 a = t.a.xyz - e.position.xyz, b = t.b.xyz - e.position.xyz,
+                 c = t.c.xyz - e.position.xyz;
     vec3 n = cross(t.b.xyz - t.a.xyz, t.c.xyz - t.a.xyz);
     // The eye goes to the side that its surface shows, or, where the triangle is across that, to the
     // triangle's front.
@@ -49,18 +60,9 @@ seen see(int triangle, int map)
     bool is_near = height * height < near_plane * near_plane * n2;
     float wanted = is_near ? side * near_plane * sqrt(n2) : height;
     precise vec3 shift = is_near ? n * ((height - wanted) / n2) : vec3(0.0);
-    a += shift;
-    b += shift;
-    c += shift;
-    seen s;
-    precise vec3 sa = vec3(dot(a, e.tangent.xyz), dot(a, e.bitangent.xyz), dot(a, e.normal.xyz));
-    precise vec3 sb = vec3(dot(b, e.tangent.xyz), dot(b, e.bitangent.xyz), dot(b, e.normal.xyz));
-    precise vec3 sc = vec3(dot(c, e.tangent.xyz), dot(c, e.bitangent.xyz), dot(c, e.normal.xyz));
-    s.a = sa;
-    s.b = sb;
-    s.c = sc;
-    s.turn = wanted < 0.0 ? 1.0 : -1.0;
-    return s;
+    vec3 bitangent = cross(e.normal.xyz, e.tangent.xyz);
+    return seen(turned(a + shift, e, bitangent), turned(b + shift, e, bitangent),
+                turned(c + shift, e, bitangent), wanted < 0.0 ? 1.0 : -1.0);
 }
 
 // Normals of the planes through the eye and the edges opposite of a, b, c; inside is above 0.
@@ -92,15 +94,19 @@ vec4 ray_of(ivec2 texel, float size)
     return vec4(2.0 * u, 1.0 - t, s > rim * rim ? 0.0 : 1.0 + t);
 }
 
-// Reciprocal distance of the triangle along a ray, 0 where it is not met. `weights`: barycentrics, not
-// yet normalized. The point met is a mean of the corners, so that a triangle however thin has it
-// within its bounds.
-float meet(seen s, edges n, vec4 ray, out vec3 weights)
+// Barycentrics of where a ray meets the triangle, not yet normalized; none below 0 where it does.
+vec3 weights_of(edges n, vec4 ray)
 {
     precise vec3 w = vec3(dot(n.a, ray.xyz), dot(n.b, ray.xyz), dot(n.c, ray.xyz));
+    return w;
+}
+
+// Reciprocal distance of the triangle along a ray, 0 where it is not met. The point met is a mean of
+// the corners, so that a triangle however thin has it within its bounds.
+float meet(seen s, vec4 ray, vec3 w)
+{
     float sum = w.x + w.y + w.z;
     float far = w.x * dot(s.a, ray.xyz) + w.y * dot(s.b, ray.xyz) + w.z * dot(s.c, ray.xyz);
-    bool inside = min(min(w.x, w.y), w.z) >= 0.0 && sum > 0.0 && far > 0.0;
-    weights = w;
-    return inside ? min(ray.w * sum / max(far, 1e-37), most) : 0.0;
+    bool met = ray.w > 0.0 && min(min(w.x, w.y), w.z) >= 0.0 && sum > 0.0 && far > 0.0;
+    return met ? min(ray.w * sum / max(far, 1e-37), most) : 0.0;
 }

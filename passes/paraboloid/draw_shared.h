@@ -12,12 +12,11 @@ typedef struct shadow_triangle shadow_triangle;
 typedef struct shadow_corner shadow_corner;
 #endif
 
-// A map to be drawn.
+// A map to be drawn. The bitangent is normal x tangent.
 struct shadow_eye {
-    ag_vec4 high, low; // xyz: the place is their sum
-    ag_vec4 tangent;   // xyz; w: the map's first column in its layer
-    ag_vec4 bitangent; // xyz; w: its first row
-    ag_vec4 normal;    // xyz: unit; w: its layer
+    ag_vec4 position; // xyz; w: the map's first column in its layer
+    ag_vec4 tangent;  // xyz; w: its first row
+    ag_vec4 normal;   // xyz: unit; w: its layer
 };
 
 struct shadow_triangle {

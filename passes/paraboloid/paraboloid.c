@@ -9,7 +9,7 @@
 #include <string.h>
 
 static_assert(sizeof(ag_paraboloid_eye_block) == 64, "std430 layout of ag_paraboloid_eye_block");
-static_assert(sizeof(shadow_eye) == 80, "std430 layout of shadow_eye");
+static_assert(sizeof(shadow_eye) == 48, "std430 layout of shadow_eye");
 static_assert(sizeof(shadow_triangle) == 48, "std430 layout of shadow_triangle");
 static_assert(sizeof(shadow_corner) == 16, "std430 layout of shadow_corner");
 
@@ -19,7 +19,7 @@ enum {
     MAX_SIZE = 1024,
     MAX_CAPACITY = 4096,
     MAX_SCRATCH = 1 << 24, // texels
-    MAX_LIST = 1 << 19,    // triangles times maps: 12 MiB
+    MAX_LIST = 1 << 18,    // triangles times maps: 4 MiB a class
     UNIT = 4,
     EYES = 4,
     HEADER = 16, // bytes before the eyes
@@ -110,10 +110,9 @@ static bool create_buffers(ag_paraboloid_maps *m, const paraboloid_triangles *t)
         [PARABOLOID_CORNERS] = { corners * sizeof *t->corners, t->corners },
         [PARABOLOID_TEXTURES] = { (uint64_t) t->texture_count * sizeof *t->textures, t->textures },
         [PARABOLOID_ALPHAS] = { (t->alpha_count + 3) / 4 * 4, t->alphas },
-        [PARABOLOID_SMALL] = { list * 2 * sizeof(uint32_t), NULL },
-        [PARABOLOID_LARGE] = { list * 4 * sizeof(uint32_t), NULL },
+        [PARABOLOID_LISTS] = { PARABOLOID_CLASSES * list * 4 * sizeof(uint32_t), NULL },
         [PARABOLOID_COUNTS] = { 4 * sizeof(uint32_t), NULL },
-        [PARABOLOID_GROUPS] = { 8 * sizeof(uint32_t), NULL },
+        [PARABOLOID_GROUPS] = { PARABOLOID_CLASSES * 4 * sizeof(uint32_t), NULL },
         [PARABOLOID_DRAWN] = { capacity * sizeof *m->fresh, NULL },
         [PARABOLOID_SCRATCH] = { texels * sizeof(uint32_t), NULL },
         [PARABOLOID_EYES] = { HEADER + capacity * sizeof *m->eyes, NULL },
@@ -129,6 +128,32 @@ static bool create_buffers(ag_paraboloid_maps *m, const paraboloid_triangles *t)
     return true;
 }
 
+static bool create_views(ag_paraboloid_maps *m)
+{
+    static const struct {
+        paraboloid_buffer buffer;
+        GLenum format; // 16 bytes
+    } of[PARABOLOID_VIEWS] = {
+        [PARABOLOID_VIEW_TRIANGLES] = { PARABOLOID_TRIANGLES, GL_RGBA32F },
+        [PARABOLOID_VIEW_EYES] = { PARABOLOID_DRAWN, GL_RGBA32F },
+        [PARABOLOID_VIEW_LISTS] = { PARABOLOID_LISTS, GL_RGBA32UI },
+    };
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    glCreateTextures(GL_TEXTURE_BUFFER, PARABOLOID_VIEWS, m->views);
+    for (int i = 0; i < PARABOLOID_VIEWS; i++) {
+        const uint64_t texels = m->sizes[of[i].buffer] / 16;
+        if (texels > (uint64_t) most) {
+            fg_logf(m->log, FG_LOG_ERROR,
+                    "paraboloid: a buffer of %llu texels, one of the device's textures holds %d",
+                    (unsigned long long) texels, most);
+            return false;
+        }
+        glTextureBuffer(m->views[i], of[i].format, m->buffers[of[i].buffer]);
+    }
+    return true;
+}
+
 static fg_status create_objects(ag_paraboloid_maps *m, const ag_scene *scene)
 {
     paraboloid_triangles t;
@@ -140,7 +165,7 @@ static fg_status create_objects(ag_paraboloid_maps *m, const ag_scene *scene)
         m->opaque = t.opaque;
         m->unit = t.unit;
         memcpy(m->centre, t.centre, sizeof m->centre);
-        status = create_buffers(m, &t) ? FG_OK : FG_ERR_UNSUPPORTED;
+        status = create_buffers(m, &t) && create_views(m) ? FG_OK : FG_ERR_UNSUPPORTED;
     } else if (status == FG_ERR_MEMORY) {
         fg_logf(m->log, FG_LOG_ERROR, "paraboloid: out of memory for the triangles of %s",
                 scene->name);
@@ -197,6 +222,7 @@ void ag_paraboloid_destroy(ag_paraboloid_maps *m)
         return;
     glDeleteBuffers(PARABOLOID_BUFFERS, m->buffers);
     glDeleteTextures(1, &m->texture);
+    glDeleteTextures(PARABOLOID_VIEWS, m->views);
     free(m->slots);
     free(m->eyes);
     free(m->fresh);
@@ -249,17 +275,16 @@ static void add_fresh(ag_paraboloid_maps *m, int index)
 {
     const paraboloid_slot *slot = &m->slots[index];
     shadow_eye *e = &m->fresh[m->fresh_count];
-    float *const axes[3] = { e->tangent, e->bitangent, e->normal };
     float place[3];
     place_of(m, index, place);
-    *e = (shadow_eye){ { 0 } };
     for (int k = 0; k < 3; k++) {
-        const double at = (slot->position[k] - m->centre[k]) * m->unit;
-        e->high[k] = (float) at;
-        e->low[k] = (float) (at - (double) e->high[k]);
-        memcpy(axes[k], slot->frame[k], sizeof slot->frame[k]);
-        axes[k][3] = place[k];
+        e->position[k] = (float) ((slot->position[k] - m->centre[k]) * m->unit);
+        e->tangent[k] = slot->frame[0][k];
+        e->normal[k] = slot->frame[2][k];
     }
+    e->position[3] = place[0];
+    e->tangent[3] = place[1];
+    e->normal[3] = place[2];
     m->fresh_slots[m->fresh_count++] = index;
 }
 

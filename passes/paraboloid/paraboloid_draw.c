@@ -3,16 +3,17 @@
 
 #include "shadow_large_comp.h"
 #include "shadow_list_comp.h"
+#include "shadow_medium_comp.h"
 #include "shadow_plan_comp.h"
-#include "shadow_small_comp.h"
 #include "shadow_store_comp.h"
 
 #include <epoxy/gl.h>
 
 enum { GROUP = 64, STORE_X = 16, STORE_Y = 4 };
 
+// [1]: MASK
 typedef struct programs {
-    uint32_t list, plan, small[2], large[2], store; // [1]: MASK
+    uint32_t list[2], medium[2], large[2], plan, store;
 } programs;
 
 static uint32_t program_of(fg_device *device, const fg_gl_shader *shader, bool masked)
@@ -23,17 +24,17 @@ static uint32_t program_of(fg_device *device, const fg_gl_shader *shader, bool m
 
 static bool find_programs(fg_device *device, const ag_paraboloid_maps *m, programs *p)
 {
-    p->list = program_of(device, &shadow_list_comp, false);
     p->plan = program_of(device, &shadow_plan_comp, false);
     p->store = program_of(device, &shadow_store_comp, false);
     for (int i = 0; i < 2; i++) {
         const bool masked = i == 1 && m->opaque < m->triangles;
-        p->small[i] = program_of(device, &shadow_small_comp, masked);
+        p->list[i] = program_of(device, &shadow_list_comp, masked);
+        p->medium[i] = program_of(device, &shadow_medium_comp, masked);
         p->large[i] = program_of(device, &shadow_large_comp, masked);
-        if (!p->small[i] || !p->large[i])
+        if (!p->list[i] || !p->medium[i] || !p->large[i])
             return false;
     }
-    return p->list && p->plan && p->store;
+    return p->plan && p->store;
 }
 
 static void bind(const ag_paraboloid_maps *m, int binding, paraboloid_buffer which)
@@ -46,50 +47,39 @@ typedef struct batch {
     int first, count; // of the fresh ones
 } batch;
 
+static void use(const ag_paraboloid_maps *m, uint32_t program, const batch *b, bool masked)
+{
+    glProgramUniform2i(program, 0, m->size, b->first);
+    if (masked)
+        glProgramUniform1i(program, 1, m->opaque);
+    glUseProgram(program);
+}
+
 static void list_triangles(const ag_paraboloid_maps *m, const programs *p, const batch *b,
-                           const int span[2])
+                           const int span[3])
 {
     const uint32_t zero = 0;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(m->buffers[PARABOLOID_COUNTS], GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT,
                            &zero);
-    bind(m, 2, PARABOLOID_SMALL);
-    bind(m, 3, PARABOLOID_LARGE);
-    bind(m, 4, PARABOLOID_COUNTS);
-    glProgramUniform4i(p->list, 0, span[0], span[1], b->first, b->first + b->count);
-    glProgramUniform1f(p->list, 1, (float) m->size);
-    glUseProgram(p->list);
+    bind(m, 0, PARABOLOID_LISTS);
+    use(m, p->list[span[2]], b, span[2]);
+    glProgramUniform4i(p->list[span[2]], 2, span[0], span[1], b->count, m->list);
     fg_gl_dispatch_2d(span[1] - span[0], 1, GROUP, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    bind(m, 0, PARABOLOID_COUNTS);
-    bind(m, 1, PARABOLOID_GROUPS);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    bind(m, 0, PARABOLOID_GROUPS);
     glUseProgram(p->plan);
     glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-}
-
-static void bind_drawn(const ag_paraboloid_maps *m)
-{
-    bind(m, 0, PARABOLOID_TRIANGLES);
-    bind(m, 1, PARABOLOID_DRAWN);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
 
 static void draw_listed(const ag_paraboloid_maps *m, const programs *p, const batch *b, bool masked)
 {
-    const uint32_t use[2] = { p->small[masked], p->large[masked] };
-    bind_drawn(m);
-    bind(m, 2, PARABOLOID_SCRATCH);
-    bind(m, 4, PARABOLOID_CORNERS);
-    bind(m, 5, PARABOLOID_TEXTURES);
-    bind(m, 6, PARABOLOID_ALPHAS);
-    bind(m, 7, PARABOLOID_COUNTS);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, m->buffers[PARABOLOID_GROUPS]);
-    for (int i = 0; i < 2; i++) {
-        bind(m, 3, i == 0 ? PARABOLOID_SMALL : PARABOLOID_LARGE);
-        glProgramUniform2i(use[i], 0, m->size, b->first);
-        if (masked)
-            glProgramUniform1i(use[i], 1, m->opaque);
-        glUseProgram(use[i]);
+    for (int i = 0; i < PARABOLOID_CLASSES; i++) {
+        const bool large = i == PARABOLOID_CLASSES - 1;
+        const uint32_t program = large ? p->large[masked] : p->medium[masked];
+        use(m, program, b, masked);
+        glProgramUniform2i(program, 2, i, i * m->list);
         glDispatchComputeIndirect(i * 16);
     }
 }
@@ -99,8 +89,7 @@ static void draw_range(const ag_paraboloid_maps *m, const programs *p, const bat
 {
     const int past = masked ? m->triangles : m->opaque, step = m->list / b->count;
     for (int first = masked ? m->opaque : 0; first < past; first += step) {
-        const int span[2] = { first, past - first < step ? past : first + step };
-        bind_drawn(m);
+        const int span[3] = { first, past - first < step ? past : first + step, masked };
         list_triangles(m, p, b, span);
         draw_listed(m, p, b, masked);
     }
@@ -109,13 +98,21 @@ static void draw_range(const ag_paraboloid_maps *m, const programs *p, const bat
 static void store(const ag_paraboloid_maps *m, const programs *p, const batch *b)
 {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    bind(m, 1, PARABOLOID_DRAWN);
-    bind(m, 2, PARABOLOID_SCRATCH);
-    glBindImageTexture(0, m->texture, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R16F);
-    glProgramUniform2i(p->store, 0, m->size, b->first);
-    glUseProgram(p->store);
+    use(m, p->store, b, false);
     glDispatchCompute((GLuint) (m->size / STORE_X), (GLuint) (m->size / STORE_Y),
                       (GLuint) b->count);
+}
+
+static void bind_all(const ag_paraboloid_maps *m)
+{
+    glBindTextures(0, PARABOLOID_VIEWS, m->views);
+    bind(m, 1, PARABOLOID_COUNTS);
+    bind(m, 2, PARABOLOID_SCRATCH);
+    bind(m, 4, PARABOLOID_CORNERS);
+    bind(m, 5, PARABOLOID_TEXTURES);
+    bind(m, 6, PARABOLOID_ALPHAS);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, m->buffers[PARABOLOID_GROUPS]);
+    glBindImageTexture(0, m->texture, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R16F);
 }
 
 fg_status paraboloid_draw(const fg_run *run, ag_paraboloid_maps *m)
@@ -126,6 +123,7 @@ fg_status paraboloid_draw(const fg_run *run, ag_paraboloid_maps *m)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glNamedBufferSubData(m->buffers[PARABOLOID_DRAWN], 0,
                          (GLsizeiptr) ((size_t) m->fresh_count * sizeof *m->fresh), m->fresh);
+    bind_all(m);
     for (int first = 0; first < m->fresh_count; first += m->batch) {
         const int left = m->fresh_count - first;
         const batch b = { first, left < m->batch ? left : m->batch };

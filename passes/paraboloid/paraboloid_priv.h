@@ -7,8 +7,8 @@
 #include <pass/paraboloid.h>
 
 enum {
-    // At once; no more than small_pack() of list.glsl holds.
-    PARABOLOID_BATCH = 32,
+    PARABOLOID_BATCH = 32,  // maps at once
+    PARABOLOID_CLASSES = 3, // lists: list.glsl
 };
 
 // What is drawn: the scene's static triangles, those of MASK last.
@@ -40,25 +40,33 @@ typedef enum paraboloid_buffer {
     PARABOLOID_CORNERS,
     PARABOLOID_TEXTURES,
     PARABOLOID_ALPHAS,
-    PARABOLOID_SMALL,   // uvec2[list]
-    PARABOLOID_LARGE,   // uvec4[list]
+    PARABOLOID_LISTS,   // uvec4[PARABOLOID_CLASSES * list]
     PARABOLOID_COUNTS,  // uint[4]
-    PARABOLOID_GROUPS,  // uvec4[2]
+    PARABOLOID_GROUPS,  // uvec4[PARABOLOID_CLASSES]
     PARABOLOID_DRAWN,   // shadow_eye[capacity]
     PARABOLOID_SCRATCH, // uint[batch * size * size]
     PARABOLOID_EYES,    // ivec4, ag_paraboloid_eye_block[capacity]
     PARABOLOID_BUFFERS,
 } paraboloid_buffer;
 
+// The order is that of the shaders' bindings.
+typedef enum paraboloid_view {
+    PARABOLOID_VIEW_TRIANGLES = 0,
+    PARABOLOID_VIEW_EYES,
+    PARABOLOID_VIEW_LISTS,
+    PARABOLOID_VIEWS,
+} paraboloid_view;
+
 struct ag_paraboloid_maps {
     const fg_log *log;
     int size, capacity;
     int edge, layers; // maps along a layer's edge; layers
-    int batch, list;  // maps drawn at once; entries of the lists
+    int batch, list;  // maps drawn at once; entries of a list
     double centre[3], unit;
     int triangles, opaque;
     uint32_t texture, buffers[PARABOLOID_BUFFERS];
     uint64_t sizes[PARABOLOID_BUFFERS];
+    uint32_t views[PARABOLOID_VIEWS]; // buffers as textures
     paraboloid_slot *slots;
     ag_paraboloid_eye_block *eyes; // of the next frame
     int eye_count;

@@ -10,11 +10,8 @@ layout(location = 0) uniform ivec2 frame; // x: texels along a map's edge; y: th
 #include "passes/paraboloid/mask.glsl"
 #endif
 
-void draw_texel(int triangle, int map, seen s, edges n, ivec2 texel)
+void put(int triangle, int map, ivec2 texel, float w, vec3 weights)
 {
-    vec4 ray = ray_of(texel, float(frame.x));
-    vec3 weights;
-    float w = ray.w > 0.0 ? meet(s, n, ray, weights) : 0.0;
 #ifdef MASK
     w = w > 0.0 && mask_is_there(triangle, weights) ? w : 0.0;
 #endif
@@ -23,4 +20,24 @@ void draw_texel(int triangle, int map, seen s, edges n, ivec2 texel)
     // Most of what is drawn is behind what is there: looking first saves the costly atomic.
     if (bits > scratch[at])
         atomicMax(scratch[at], bits);
+}
+
+// Draws a triangle by one invocation. Texels beside it are passed over in a loop of their own, so that
+// where a CPU runs neighbours in step, all of them have something to put.
+void draw_box(int triangle, int map, seen s, ivec2 low, ivec2 extent)
+{
+    edges n = edges_of(s);
+    ivec2 at = ivec2(0);
+    while (at.y < extent.y) {
+        vec4 ray = ray_of(low + at, float(frame.x));
+        vec3 w = weights_of(n, ray);
+        while (min(min(w.x, w.y), w.z) < 0.0 && at.y < extent.y) {
+            at = at.x + 1 < extent.x ? at + ivec2(1, 0) : ivec2(0, at.y + 1);
+            ray = ray_of(low + at, float(frame.x));
+            w = weights_of(n, ray);
+        }
+        if (at.y < extent.y)
+            put(triangle, map, low + at, meet(s, ray, w), w);
+        at = at.x + 1 < extent.x ? at + ivec2(1, 0) : ivec2(0, at.y + 1);
+    }
 }

@@ -1,61 +1,94 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Triangles of many texels, one a work group, by blocks of 8x8 texels.
-// In:  shadow_triangle[], shadow_eye[], list, its count; MASK: corners, textures
+// Triangles of many texels, one a work group; an invocation draws rows of it.
+// In:  shadow_triangle[], shadow_eye[], a list, its count; MASK: corners, textures
 // Out: scratch
 #include "passes/paraboloid/draw.glsl"
 #include "passes/paraboloid/scratch.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 32) in;
 
-layout(std430, binding = 3) readonly buffer list_buffer
-{
-    uvec4 list[];
-};
-layout(std430, binding = 7) readonly buffer count_buffer
+layout(binding = 2) uniform usamplerBuffer list;
+layout(std430, binding = 1) readonly buffer count_buffer
 {
     uint counts[4];
 };
+layout(location = 2) uniform ivec2 from; // x: which list; y: where it begins
 
-// The most that plane `n` has of the rays in a box of (x, y) / (1 + z): along each axis a parabola.
-float most_in(vec3 n, vec2 low, vec2 high)
+// What of a row, x in [-1, 1] at y, may be on the inner side of plane `n`: a parabola's sign. Where that
+// is two pieces, and both are within `span`, it is left as it is.
+void narrow(vec3 n, float y, inout vec2 span)
 {
-    vec2 top = clamp(n.xy / (abs(n.z) > 1e-37 ? n.z : 1e-37), low, high);
-    vec2 f = max(max(low * (2.0 * n.xy - n.z * low), high * (2.0 * n.xy - n.z * high)),
-                 top * (2.0 * n.xy - n.z * top));
-    return f.x + f.y + n.z + 1e-6 * (abs(n.x) + abs(n.y) + abs(n.z));
+    float c = 2.0 * n.y * y + n.z * (1.0 - y * y);
+    float size = n.x * n.x + abs(n.z * c), d = n.x * n.x + n.z * c + sign(n.z) * 1e-6 * size;
+    float q = n.x + (n.x < 0.0 ? -1.0 : 1.0) * sqrt(max(d, 0.0));
+    vec2 ends = clamp(vec2(q, -c) / vec2(abs(n.z) > 1e-30 ? n.z : 1e-30,
+                                         abs(q) > 1e-30 ? q : 1e-30), -4.0, 4.0);
+    float low = min(ends.x, ends.y), high = max(ends.x, ends.y);
+    bool between = n.z >= 0.0, cuts = d > 0.0;
+    span = between ? (cuts ? vec2(max(span.x, low), min(span.y, high)) : vec2(2.0, -2.0)) : span;
+    span.x = !between && cuts && low < span.x ? max(span.x, high) : span.x;
+    span.y = !between && cuts && high > span.y ? min(span.y, low) : span.y;
 }
 
-bool may_cover(edges n, ivec2 block)
+float half_chord(float radius, float y)
 {
-    vec2 low = (vec2(block) + 0.5) * (2.0 / float(frame.x)) - 1.0, high = low + 14.0 / float(frame.x);
-    vec2 outmost = max(abs(low), abs(high));
-    float rim = dot(outmost, outmost) > horizon * horizon ? (reach + 0.1) * 2.0 / float(frame.x) : 0.0;
-    low -= rim;
-    high += rim;
-    return most_in(n.a, low, high) >= 0.0 && most_in(n.b, low, high) >= 0.0 &&
-           most_in(n.c, low, high) >= 0.0;
+    return sqrt(max(radius * radius - y * y, 0.0));
+}
+
+// Columns of a row to look at, of those in `ends`: from x to y, and those beyond the horizon, up to z
+// and from w. `ends` loses what is beyond the reach of lookups.
+ivec4 columns(edges n, int row, inout ivec2 ends)
+{
+    float size = float(frame.x), y = (float(row) + 0.5) * (2.0 / size) - 1.0;
+    float chord = half_chord(horizon, y), outmost = half_chord(1.0 + reach * 2.0 / size, y);
+    vec2 span = (vec2(ends) + vec2(0.5, -0.5)) * (2.0 / size) - 1.0;
+    span = vec2(max(span.x, -chord), min(span.y, chord));
+    narrow(n.a, y, span);
+    narrow(n.b, y, span);
+    narrow(n.c, y, span);
+    span = clamp(span, -2.0, 2.0);
+    vec4 at = (0.5 + 0.5 * vec4(span, -chord, chord)) * size - 0.5;
+    vec2 most_ends = (0.5 + 0.5 * vec2(-outmost, outmost)) * size - 0.5;
+    ends = ivec2(max(ends.x, int(ceil(most_ends.x - 0.02))), min(ends.y, int(floor(most_ends.y + 1.02))));
+    return ivec4(ceil(at.x - 0.02), floor(at.yz + 0.02), ceil(at.w - 0.02));
+}
+
+// The first column from x on that is to be looked at.
+int skip(int x, ivec4 c)
+{
+    x = x > c.z && x < c.x ? max(x, min(c.x, c.w)) : x;
+    return x > c.z && x > c.y ? max(x, c.w) : x;
+}
+
+void draw_row(int triangle, int map, seen s, edges n, int row, ivec2 ends)
+{
+    ivec4 c = columns(n, row, ends);
+    int x = skip(ends.x, c);
+    while (x < ends.y) {
+        vec4 ray = ray_of(ivec2(x, row), float(frame.x));
+        vec3 w = weights_of(n, ray);
+        while (min(min(w.x, w.y), w.z) < 0.0 && x < ends.y) {
+            x = skip(x + 1, c);
+            ray = ray_of(ivec2(x, row), float(frame.x));
+            w = weights_of(n, ray);
+        }
+        if (x < ends.y)
+            put(triangle, map, ivec2(x, row), meet(s, ray, w), w);
+        x = skip(x + 1, c);
+    }
 }
 
 void main()
 {
-    uint i = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    if (i >= counts[1])
+    int i = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
+    if (i >= int(counts[from.x]))
         return;
-    uvec4 entry = list[i];
+    uvec4 entry = texelFetch(list, from.y + i);
     int triangle = int(entry.x), map = int(entry.y);
     ivec2 low = ivec2(entry.z & 65535u, entry.z >> 16), extent = ivec2(entry.w & 65535u, entry.w >> 16);
-    seen s = see(triangle, frame.y + map);
-    edges n = edges_of(s);
-    ivec2 at = ivec2(0);
-    while (at.y < extent.y) {
-        // Blocks without a texel inside are passed over in a loop of their own, which costs less where
-        // both sides of a branch run.
-        while (at.y < extent.y && !may_cover(n, low + at))
-            at = at.x + 8 < extent.x ? at + ivec2(8, 0) : ivec2(0, at.y + 8);
-        ivec2 mine = at + ivec2(gl_LocalInvocationID.xy);
-        if (all(lessThan(mine, extent)))
-            draw_texel(triangle, map, s, n, low + mine);
-        at = at.x + 8 < extent.x ? at + ivec2(8, 0) : ivec2(0, at.y + 8);
+    for (int row = int(gl_LocalInvocationIndex); row < extent.y; row += 32) {
+        seen s = see(fetch_triangle(triangle), fetch_eye(frame.y + map));
+        draw_row(triangle, map, s, edges_of(s), low.y + row, low.x + ivec2(0, extent.x));
     }
 }

@@ -1,27 +1,24 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Which triangles may cover a texel's middle in which map: those of few texels, those of many.
-// In:  shadow_triangle[], shadow_eye[]
-// Out: uvec2[] small ones: triangle; map, box. uvec4[] large ones: triangle, map, box. Their counts.
+// Which triangles may cover a texel's middle in which map. Those of few texels are drawn at once, the
+// others go to lists.
+// In:  shadow_triangle[], shadow_eye[]; MASK: corners, textures
+// Out: scratch; uvec4[]: triangle, map, box; a list a class; their counts
 #include "passes/paraboloid/draw.glsl"
 #include "passes/paraboloid/list.glsl"
+#include "passes/paraboloid/scratch.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 2) writeonly buffer small_buffer
+layout(std430, binding = 0) writeonly buffer list_buffer
 {
-    uvec2 small_ones[];
+    uvec4 list[];
 };
-layout(std430, binding = 3) writeonly buffer large_buffer
-{
-    uvec4 large_ones[];
-};
-layout(std430, binding = 4) buffer count_buffer
+layout(std430, binding = 1) buffer count_buffer
 {
     uint counts[4];
 };
-layout(location = 0) uniform ivec4 span; // triangles from x to before y; maps from z to before w
-layout(location = 1) uniform float size;
+layout(location = 2) uniform ivec4 span; // triangles from x to before y; z: maps; w: room of a list
 
 // A corner this near, or a crossing of the horizon, has no direction to speak of.
 const float no_direction = 1.0 / 4096.0;
@@ -45,6 +42,7 @@ void add_crossing(inout vec4 box, vec3 p, vec3 q, inout bool unsure)
 // Texels whose middle may be covered: first in xy, last in zw.
 ivec4 bounds(seen s)
 {
+    float size = float(frame.x);
     vec3 far = vec3(length(s.a), length(s.b), length(s.c));
     bool unsure = min(min(far.x, far.y), far.z) < no_direction;
     vec4 box = vec4(2.0, 2.0, -2.0, -2.0);
@@ -71,20 +69,21 @@ ivec4 bounds(seen s)
 
 void main()
 {
-    int triangle = span.x + int(gl_GlobalInvocationID.x);
-    if (triangle >= span.y)
+    int i = span.x + int(gl_GlobalInvocationID.x);
+    if (i >= span.y)
         return;
-    for (int map = span.z; map < span.w; map++) {
-        ivec4 box = bounds(see(triangle, map));
-        ivec2 extent = box.zw - box.xy + 1;
-        if (min(extent.x, extent.y) <= 0)
-            continue;
-        bool is_small = small_fits(extent);
-        uint at = atomicAdd(counts[is_small ? 0 : 1], 1u);
-        uint which = uint(map - span.z);
-        if (is_small)
-            small_ones[at] = uvec2(triangle, small_pack(which, box.xy, extent));
-        else
-            large_ones[at] = uvec4(triangle, which, box.x | box.y << 16, extent.x | extent.y << 16);
+    shadow_triangle t = fetch_triangle(i);
+    for (int map = 0; map < span.z; map++) {
+        seen s = see(t, fetch_eye(frame.y + map));
+        ivec4 box = bounds(s);
+        ivec2 extent = max(box.zw - box.xy + 1, ivec2(0));
+        int texels = extent.x * extent.y;
+        if (texels > area.x) {
+            int which = texels > area.z ? 2 : texels > area.y ? 1 : 0;
+            uint at = atomicAdd(counts[which], 1u);
+            list[uint(which * span.w) + at] =
+                uvec4(i, map, box.x | box.y << 16, extent.x | extent.y << 16);
+        }
+        draw_box(i, map, s, box.xy, texels > area.x || texels <= 0 ? ivec2(0) : extent);
     }
 }

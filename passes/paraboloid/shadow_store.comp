@@ -3,14 +3,9 @@
 // Drawn maps go to where they are kept, and what they were drawn in is cleared.
 // In:  scratch, shadow_eye[]
 // Out: maps R16F, reciprocal distance; scratch, 0
-#include "passes/paraboloid/draw_shared.h"
-
 layout(local_size_x = 16, local_size_y = 4) in;
 
-layout(std430, binding = 1) readonly buffer eye_buffer
-{
-    shadow_eye eyes[];
-};
+layout(binding = 1) uniform samplerBuffer eye_texels; // shadow_eye[]
 layout(std430, binding = 2) buffer scratch_buffer
 {
     uint scratch[];
@@ -22,9 +17,11 @@ void main()
 {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     int map = int(gl_WorkGroupID.z);
-    shadow_eye e = eyes[frame.y + map];
+    int eye = 3 * (frame.y + map);
+    ivec3 place = ivec3(texelFetch(eye_texels, eye).w + float(texel.x),
+                        texelFetch(eye_texels, eye + 1).w + float(texel.y),
+                        texelFetch(eye_texels, eye + 2).w);
     int at = (map * frame.x + texel.y) * frame.x + texel.x;
-    ivec3 place = ivec3(ivec2(e.tangent.w, e.bitangent.w) + texel, e.normal.w);
     imageStore(maps, place, vec4(uintBitsToFloat(scratch[at])));
     scratch[at] = 0u;
 }
