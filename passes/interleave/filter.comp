@@ -5,8 +5,9 @@
 // Out: light RGBA32F; a 1; all 0 where nothing is
 // DISTANCE: the paper's metric of position; else the distance from the pixel's plane.
 // Source: Laine, Saransaari, Kontkanen, Lehtinen, Aila 2007, fig. 5.
-//         Departs from it: at the image's border the window is shifted inwards, so that every tile
-//         stays in it; what is not finite does not count; DISTANCE aside, the metric.
+//         Departs from it: a tile whose pixel in the window does not count is looked for n pixels on,
+//         and at the image's border the window is shifted inwards, so that the pattern goes up to
+//         edges; what is not finite does not count; DISTANCE aside, the metric.
 #include "passes/include/pass/view_shared.h"
 
 // Four pixels of an invocation share what they fetch.
@@ -25,6 +26,7 @@ const float down = 1.0 / 256.0; // so that n^2 values of any size have a sum
 
 struct pixel {
     ivec2 first; // of its window
+    bool there;
     vec3 p, n;
     float reach;
     vec4 sum; // w: how many
@@ -33,7 +35,8 @@ struct pixel {
 pixel pixel_at(ivec2 at)
 {
     at = min(at, frame.xy - 1);
-    vec3 p = texelFetch(position_map, at, 0).xyz, n = texelFetch(normal_map, at, 0).xyz;
+    vec4 q = texelFetch(position_map, at, 0);
+    vec3 p = q.xyz, n = texelFetch(normal_map, at, 0).xyz;
 #ifdef DISTANCE
     float reach = limit.x;
 #else
@@ -41,7 +44,7 @@ pixel pixel_at(ivec2 at)
 #endif
     // With an even n the window is half a pixel off; sec. 5.2.
     ivec2 first = clamp(at - frame.z / 2, ivec2(0), frame.xy - frame.z);
-    return pixel(first, p, n / max(length(n), 1e-6), reach, vec4(0.0));
+    return pixel(first, q.w > 0.5, p, n / max(length(n), 1e-6), reach, vec4(0.0));
 }
 
 bool of_one_surface(pixel a, vec4 q, vec3 m)
@@ -55,6 +58,13 @@ bool of_one_surface(pixel a, vec4 q, vec3 m)
     return near && q.w > 0.5 && dot(m, a.n) > limit.y * length(m);
 }
 
+// w 0: does not count.
+vec4 light_at(ivec2 at)
+{
+    vec3 e = texelFetch(light_map, at, 0).rgb;
+    return any(isnan(e)) || any(isinf(e)) ? vec4(0.0) : vec4(e * down, 1.0);
+}
+
 void add(inout pixel a, ivec2 me, ivec2 at, vec4 q, vec3 m, vec4 light)
 {
     bool in_window = all(greaterThanEqual(at, a.first)) && all(lessThan(at, a.first + frame.z));
@@ -62,38 +72,95 @@ void add(inout pixel a, ivec2 me, ivec2 at, vec4 q, vec3 m, vec4 light)
         a.sum += light;
 }
 
+// The same of a pixel that need not be one of the image.
+vec4 light_of(pixel a, ivec2 me, ivec2 at)
+{
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, frame.xy)))
+        return vec4(0.0);
+    vec4 q = texelFetch(position_map, at, 0);
+    vec3 m = texelFetch(normal_map, at, 0).xyz;
+    return at == me || of_one_surface(a, q, m) ? light_at(at) : vec4(0.0);
+}
+
 void store(pixel a, ivec2 at)
 {
-    if (any(greaterThanEqual(at, frame.xy)))
-        return;
-    bool there = texelFetch(position_map, at, 0).w > 0.5;
     vec3 mean = min(a.sum.rgb / (max(a.sum.w, 1.0) * down), vec3(3.0e38));
-    imageStore(result, at, there ? vec4(mean, 1.0) : vec4(0.0));
+    if (all(lessThan(at, frame.xy)))
+        imageStore(result, at, a.there ? vec4(mean, 1.0) : vec4(0.0));
+}
+
+// Whether some of the pixel's tiles do not count.
+bool lacks_tiles(pixel a, ivec2 at)
+{
+    return a.there && a.sum.w < float(frame.z * frame.z) && all(lessThan(at, frame.xy));
+}
+
+// Where else the tile of a pixel of the window is met, i 1 to 5: n pixels on, to the other side of
+// the pixel in the middle, along x, y or both; then to this side.
+ivec2 elsewhere(ivec2 at, ivec2 me, int i)
+{
+    ivec2 across = frame.z * (1 - 2 * ivec2(greaterThan(at, me)));
+    if (i > 3)
+        across = -across;
+    return at + across * ivec2(i != 2 && i != 5, i != 1 && i != 4);
+}
+
+// Does those of an invocation's pixels again that lack tiles, bits of `todo`, and looks for their tiles
+// elsewhere. Few pixels need it: a loop on its own takes no time where none of the neighbours does,
+// and a round of it is one pixel looked at.
+void complete(uint todo, ivec2 corner)
+{
+    ivec2 me, at;
+    pixel a;
+    int i = -1; // which of the places of a tile is next; below 0: a pixel begins
+    while (todo != 0u) {
+        if (i < 0) {
+            int which = findLSB(todo);
+            me = corner + ivec2(which & 1, which >> 1);
+            a = pixel_at(me);
+            at = a.first;
+            i = 0;
+        }
+        vec4 light = light_of(a, me, i == 0 ? at : elsewhere(at, me, i));
+        a.sum += light;
+        i = light.w > 0.0 ? 6 : i + 1;
+        if (i == 6) {
+            at = at.x + 1 < a.first.x + frame.z ? at + ivec2(1, 0) : ivec2(a.first.x, at.y + 1);
+            i = 0;
+        }
+        if (at.y == a.first.y + frame.z) {
+            store(a, me);
+            todo &= todo - 1u;
+            i = -1;
+        }
+    }
 }
 
 void main()
 {
     ivec2 me = ivec2(gl_GlobalInvocationID.xy) * 2;
+    ivec2 right = me + ivec2(1, 0), above = me + ivec2(0, 1), last = me + 1;
     if (any(greaterThanEqual(me, frame.xy)))
         return;
-    pixel a = pixel_at(me), b = pixel_at(me + ivec2(1, 0));
-    pixel c = pixel_at(me + ivec2(0, 1)), d = pixel_at(me + 1);
+    pixel a = pixel_at(me), b = pixel_at(right), c = pixel_at(above), d = pixel_at(last);
     ivec2 end = d.first + frame.z;
     for (int y = a.first.y; y < end.y; y++)
         for (int x = a.first.x; x < end.x; x++) {
             ivec2 at = ivec2(x, y);
             vec4 q = texelFetch(position_map, at, 0);
             vec3 m = texelFetch(normal_map, at, 0).xyz;
-            vec3 e = texelFetch(light_map, at, 0).rgb;
-            bool finite = !any(isnan(e)) && !any(isinf(e));
-            vec4 light = finite ? vec4(e * down, 1.0) : vec4(0.0);
+            vec4 light = light_at(at);
             add(a, me, at, q, m, light);
-            add(b, me + ivec2(1, 0), at, q, m, light);
-            add(c, me + ivec2(0, 1), at, q, m, light);
-            add(d, me + 1, at, q, m, light);
+            add(b, right, at, q, m, light);
+            add(c, above, at, q, m, light);
+            add(d, last, at, q, m, light);
         }
     store(a, me);
-    store(b, me + ivec2(1, 0));
-    store(c, me + ivec2(0, 1));
-    store(d, me + 1);
+    store(b, right);
+    store(c, above);
+    store(d, last);
+    bvec4 lacking =
+        bvec4(lacks_tiles(a, me), lacks_tiles(b, right), lacks_tiles(c, above), lacks_tiles(d, last));
+    uvec4 bits = uvec4(lacking) << uvec4(0, 1, 2, 3);
+    complete(bits.x | bits.y | bits.z | bits.w, me);
 }

@@ -175,8 +175,8 @@ void ag_box_filter_declare(ag_box_filter_pass *pass, fg_graph *g, const ag_split
         .alpha = desc->alpha,
         .beta = desc->beta,
     };
-    if (!(desc->alpha > 0)) {
-        fg_fail(g, "%s: alpha is %g, must be above 0", split->prefix, (double) desc->alpha);
+    if (!(desc->alpha >= 0)) {
+        fg_fail(g, "%s: alpha is %g, must be at least 0", split->prefix, (double) desc->alpha);
         return;
     }
     if (!(desc->beta >= -1 && desc->beta <= 1)) {

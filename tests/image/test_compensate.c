@@ -264,9 +264,9 @@ static void compensation_lights_the_rim(void **state)
             double without[BINS], with[BINS];
             ratios(&c, &dark, without);
             ratios(&c, &lit, with);
-            // b A = 1 / 4: within an eighth of a cell, 3 cm, from the edge more than two thirds of
-            // the light is of surfaces that are nearer than b allows.
-            assert_true(without[0] < 0.35);
+            // b A = 1 / 4: within an eighth of a cell, 3 cm, from the edge most of the light is of
+            // surfaces that are nearer than b allows.
+            assert_true(without[0] < 0.4);
             // Nothing is hidden here. What is left is noise: of pixels that see 128 VPLs and 384
             // samples, some hundred of them on their own in a bin.
             for (int b = 0; b < BINS; b++)

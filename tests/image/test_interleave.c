@@ -489,6 +489,32 @@ static void pattern_of_a_plane_goes(void **state)
         }
 }
 
+static void pattern_goes_up_to_edges(void **state)
+{
+    enum { W = 41, H = 37 };
+    // Left and right of a slanting edge: planes that meet there, and one far behind the other.
+    (void) state;
+    for (int far = 0; far < 2; far++)
+        for (int n = 2; n <= 8; n++) {
+            picture p;
+            picture_init(&p, W, H);
+            for (int y = 0; y < H; y++) {
+                const int edge = 12 + y / 3;
+                feed_plane(&p.f, (int[4]){ 0, y, edge, y + 1 }, (double[3]){ 0, 0, 1 }, -1);
+                feed_plane(&p.f, (int[4]){ edge, y, W, y + 1 },
+                           (double[3]){ far ? 0.1 : -1, 0, 0.4 }, far ? -9 : -0.4);
+            }
+            const double mean = set_pattern(&p, n);
+            float *got = filtered(&p, n, plane);
+            // Either part is 2 n - 1 pixels wide on all rows up to n = 6.
+            for (int i = 0; i < W * H; i++)
+                assert_true(n > 6 ||
+                            fabs((double) got[(size_t) 4 * (size_t) i] - mean) < 66 * 6e-8);
+            free(got);
+            picture_finish(&p);
+        }
+}
+
 static void light_stays_on_its_surface(void **state)
 {
     enum { W = 32, H = 24 };
@@ -528,9 +554,9 @@ static void a_pixel_counts_itself(void **state)
     for (int i = 0; i < EDGE * EDGE; i++)
         for (int k = 0; k < 3; k++)
             p.light[i][k] = (float) (i + 1);
-    // No cosine is above 1, and no other pixel lies within a micrometre.
+    // No cosine is above 1.
     for (int metric = 0; metric < 2; metric++) {
-        const ag_box_filter_desc desc = { metric ? AG_BOX_DISTANCE : AG_BOX_PLANE, 1e-6f, 1 };
+        const ag_box_filter_desc desc = { metric ? AG_BOX_DISTANCE : AG_BOX_PLANE, 0, 1 };
         float *got = filtered(&p, 4, desc);
         for (int i = 0; i < EDGE * EDGE; i++)
             assert_true(got[(size_t) 4 * (size_t) i] ==
@@ -571,7 +597,7 @@ static void mistakes_name_value_and_rule(void **state)
     } cases[] = {
         { 0, { 0, 1, 0 }, { 0 }, "t: tiles is 0, must lie in [1, 16]" },
         { 17, { 0, 1, 0 }, { 0 }, "t: tiles is 17, must lie in [1, 16]" },
-        { 4, { 0, 0, 0 }, { 0 }, "t: alpha is 0, must be above 0" },
+        { 4, { 0, -1, 0 }, { 0 }, "t: alpha is -1, must be at least 0" },
         { 4, { 0, 1, NAN }, { 0 }, "t: beta is nan, must lie in [-1, 1]" },
         { 4,
           { 0, 1, 0 },
@@ -611,6 +637,7 @@ int main(void)
         cmocka_unit_test(one_tile_is_no_split),
         cmocka_unit_test(each_vpl_has_its_own_map),
         cmocka_unit_test(pattern_of_a_plane_goes),
+        cmocka_unit_test(pattern_goes_up_to_edges),
         cmocka_unit_test(light_stays_on_its_surface),
         cmocka_unit_test(a_pixel_counts_itself),
         cmocka_unit_test(what_is_not_finite_does_not_spread),

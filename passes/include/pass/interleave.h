@@ -61,9 +61,10 @@ FG_API void ag_combine_declare(ag_combine_pass *pass, fg_graph *g, const ag_spli
 // Pass "PREFIX.filter": the mean over those of the n x n pixels about each that belong to its
 // surface (fig. 5). Every pixel counts itself; what is not finite does not count.
 //
-// Where all n x n belong, each tile is met once and its pattern gone. For that the window is
-// shifted inwards at the image's border. With an even n its middle lies half a pixel to the left
-// and below.
+// Each tile is to be met once, for then the pattern is gone. So the window is shifted inwards at
+// the image's border, and for a pixel of another surface the one of its tile n pixels on, to the
+// other side, counts if it belongs; a surface at least 2 n - 1 pixels wide about a pixel lacks
+// none. With an even n the window's middle lies half a pixel to the left and below.
 //
 // Shapes: in, out RGBA32F of the frame's size; a 1; 0 where nothing is.
 typedef enum ag_box_metric {
@@ -79,7 +80,7 @@ typedef struct ag_box_filter_pass {
 } ag_box_filter_pass;
 typedef struct ag_box_filter_desc {
     ag_box_metric metric;
-    float alpha; // > 0
+    float alpha; // >= 0
     float beta;  // least cosine between the normals, [-1, 1]; the paper's is 0.8
 } ag_box_filter_desc;
 FG_API void ag_box_filter_declare(ag_box_filter_pass *pass, fg_graph *g, const ag_split_pass *split,
