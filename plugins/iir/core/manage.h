@@ -71,23 +71,23 @@ typedef struct iir_vpl {
 } iir_vpl;
 
 typedef struct iir_point { // a sampling point, to look at
-    double place[3]; // in the domain
+    double place[3];       // in the domain
     iir_space space;
     int light, vpl; // of iir_lights; of the result's list, -1: at infinity
     bool fresh;
 } iir_point;
 
 typedef struct iir_result {
-    const iir_vpl *vpls; // by tile of the interleaved pattern: tile t of T has
-    int count;           // count / T of them, one more where t < count % T, tile after tile
+    const iir_vpl *vpls;     // by tile of the interleaved pattern: tile t of T has
+    int count;               // count / T of them, one more where t < count % T, tile after tile
     const iir_point *points; // all, those of a light after each other
     int point_count;
-    int escaped;         // points at infinity
-    int created;         // points made in this step, VPLs or not
-    int fresh;           // VPLs made in this step
-    int invalid;         // points removed: occluded, out of the cone, of a light that is gone
-    int deleted;         // points removed by the deletion rule
-    int rays;            // cast in this step
+    int escaped;       // points at infinity
+    int created;       // points made in this step, VPLs or not
+    int fresh;         // VPLs made in this step
+    int invalid;       // points removed: occluded, out of the cone, of a light that is gone
+    int deleted;       // points removed by the deletion rule
+    int rays;          // cast in this step
     double dispersion; // largest of all domains, over that of as many points in a hexagonal lattice
     double power;      // of all lights, W, mean of r, g and b
     double lost;       // of that, into the sky

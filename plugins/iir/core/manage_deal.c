@@ -37,7 +37,7 @@ void iir_sort(sort_entry *entries, int count)
 
 // ---- along a curve ----------------------------------------------------------------------------
 
-enum { CURVE_BITS = 16 };
+enum { CURVE_BITS = 12 };
 
 // Place of a cell on the Hilbert curve over a square of 2^CURVE_BITS cells along an edge.
 static uint64_t hilbert(uint32_t x, uint32_t y)
