@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test: the release build on whatever GL there is, the CPU side
-# again under ASan and UBSan, with clang, the frame graph on its own, the installed package, the
-# linters.
+# again under ASan and UBSan, its threads under TSan, with clang, the frame graph on its own, the
+# installed package, the linters.
 # Ends with "N passed, N failed". A skipped test is a failed one.
 #
 #     ./test.sh            everything
-#     ./test.sh NAME...    only these steps: build sanitize clang alone install format tidy
+#     ./test.sh NAME...    only these steps: build sanitize tsan clang alone install format tidy
 #                          cppcheck
 set -u
 cd "$(dirname "$0")"
 .ci/setup test || exit 1
 
 passed=0 failed=0
-steps="${*:-build sanitize clang alone install format tidy cppcheck}"
+steps="${*:-build sanitize tsan clang alone install format tidy cppcheck}"
 jobs=$(nproc)
 
 report() { # name status
@@ -69,6 +69,13 @@ wanted() { [[ " $steps " == *" $1 "* ]]; }
 
 sources() { git ls-files '*.c' '*.h' '*.cpp' 2>/dev/null || find framegraph passes plugins samples tests -name '*.[ch]' -o -name '*.cpp'; }
 
+# What runs on a thread beside the frame. Embree and TBB have no instrumentation: what they do among
+# themselves is not seen.
+threads_build() {
+    configure build-tsan -Dwerror=true -Dsamples=false -Db_sanitize=thread -Db_lundef=false &&
+        ninja -C build-tsan tests/unit/test_iir_worker
+}
+
 clang_build() {
     CC=clang CXX=clang++ build_in build-clang -Dwerror=true
 }
@@ -104,6 +111,11 @@ if wanted sanitize && step "build with sanitizers" build_in build-sanitize -Dwer
     meson_tests build-sanitize sanitized --suite graph --suite unit --suite numerics \
         --timeout-multiplier 4
     unset ASAN_OPTIONS UBSAN_OPTIONS
+fi
+if wanted tsan && step "build with ThreadSanitizer" threads_build; then
+    export TSAN_OPTIONS=halt_on_error=1
+    meson_tests build-tsan threads iir_worker --timeout-multiplier 4
+    unset TSAN_OPTIONS
 fi
 wanted clang && step "build with clang" clang_build
 wanted alone && step "the frame graph alone" alone && meson_tests build-alone alone
