@@ -117,6 +117,16 @@ static inline void assert_sound(const iir_result *r, int max_lights)
         assert_true(v->area >= 0 && isfinite(v->area));
     }
     assert_int_equal(fresh, r->fresh);
+    int vpls = 0;
+    assert_int_equal(r->point_count, r->count + r->escaped);
+    for (int i = 0; i < r->point_count; i++) {
+        const iir_point *p = &r->points[i];
+        vpls += p->vpl >= 0;
+        assert_true(p->vpl < r->count);
+        assert_true(p->vpl < 0 ||
+                    (r->vpls[p->vpl].light == p->light && r->vpls[p->vpl].fresh == p->fresh));
+    }
+    assert_int_equal(vpls, r->count);
     assert_true(isfinite(r->dispersion) && r->power >= 0 && r->lost <= r->power * (1 + 1e-9));
 }
 

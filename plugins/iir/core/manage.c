@@ -331,7 +331,7 @@ static void show_points(iir_manager *m)
     for (int l = 0; l < m->light_count; l++) {
         const light_state *light = &m->lights[l];
         for (int i = 0; i < light->capacity; i++) {
-            const int id = light->points[i];
+            const int id = light->lit ? light->points[i] : -1; // a dark light's domain is stale
             if (id < 0)
                 continue;
             const point *p = &m->points[id];
