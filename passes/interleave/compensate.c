@@ -8,7 +8,7 @@
 #include <fg/gl.h>
 #include <stdio.h>
 
-enum { GROUP = 8, DEFAULT_SAMPLES = 16, MAX_SAMPLES = 256 };
+enum { GROUP = 16, DEFAULT_SAMPLES = 32, MAX_SAMPLES = 256 };
 
 static fg_status run_compensate(const fg_run *run, void *user)
 {

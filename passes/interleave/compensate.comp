@@ -8,7 +8,7 @@
 #include "passes/include/pass/view_shared.h"
 #include "passes/shading/octahedral.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(binding = 0) uniform sampler2D position_map;
 layout(binding = 1) uniform sampler2D normal_map;
@@ -24,6 +24,7 @@ layout(location = 1) uniform float bound; // b, 1/m^2
 
 const float pi = 3.14159265358979;
 const float golden = 0.61803398875;
+const vec2 golden_turn = vec2(-0.73736888, -0.67549029); // cos and sin of 2 pi times that
 // The 3 x 3 pixels reach this far; beyond, and outside of them, is what the rings sample.
 const float first_radius = 1.5;
 // Of its area, as which a pixel spreads: its light meets at a distance that is no smaller than a pixel.
@@ -108,17 +109,18 @@ void main()
     for (int i = 0; i < 9; i++)
         sum += beyond_bound(x, at + ivec2(i % 3, i / 3) - 1, 1.0);
     // Over the n x n pixels of a block the samples of a ring stand all round, each at another radius
-    // within it; those of a pixel follow a spiral.
+    // within it; those of a pixel follow a spiral, each a golden angle on.
     ivec2 in_block = at % frame.z;
-    float t = float(in_block.y * frame.z + in_block.x), blocks = float(frame.z * frame.z);
-    float turns = log(max(reach_of(x.p, inversesqrt(pi * x.bound), x.pixel) / first_radius, 1.0));
-    float jitter = fract((t + 0.5) * golden), weight = turns * 2.0 * pi / float(frame.w);
-    for (int k = 0; k < frame.w && turns > 0.0; k++) {
-        float radius = first_radius * exp(turns * (float(k) + jitter) / float(frame.w));
-        float angle = 2.0 * pi * fract(float(k) * golden + (t + 0.5) / blocks);
-        ivec2 offset = ivec2(round(radius * vec2(cos(angle), sin(angle))));
+    float t = float(in_block.y * frame.z + in_block.x) + 0.5, angle = 2.0 * pi * t / float(frame.z * frame.z);
+    float reach = reach_of(x.p, inversesqrt(pi * x.bound), x.pixel);
+    float rings = log(max(reach / first_radius, 1.0)) / float(frame.w); // of one, its logarithm
+    vec2 to = first_radius * exp(rings * fract(t * golden)) * vec2(cos(angle), sin(angle));
+    mat2 next = exp(rings) * mat2(golden_turn, vec2(-golden_turn.y, golden_turn.x));
+    for (int k = 0; k < frame.w && rings > 0.0; k++) {
+        ivec2 offset = ivec2(round(to));
         if (any(greaterThan(abs(offset), ivec2(1))))
-            sum += beyond_bound(x, at + offset, weight * radius * radius);
+            sum += beyond_bound(x, at + offset, rings * 2.0 * pi * dot(to, to));
+        to = next * to;
     }
     imageStore(result, at, vec4(min(light.rgb + sum, vec3(3.0e38)), light.a));
 }

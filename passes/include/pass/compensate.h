@@ -46,7 +46,7 @@ typedef struct ag_compensate_desc {
     fg_res direct;     // RGBA32F: radiance of direct light and emission, W/(m^2 sr)
     float bound;       // b, 1/m^2, > 0
     int tiles;         // n, [1, AG_MAX_TILES]
-    int samples;       // [1, 256]; 0: 16
+    int samples;       // [1, 256]; 0: 32
     int width, height; // of the frame
 } ag_compensate_desc;
 
