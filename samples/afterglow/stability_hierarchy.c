@@ -155,9 +155,9 @@ static fg_status large_picture(stability *s, double *out)
 {
     setting own;
     shot view = radiance;
-    fg_status status = stability_with(s, "vpls=4", &own);
-    if (status == FG_ERR_UNSUPPORTED && s->setting->plugin)
-        status = setting_copy(s->setting, &own) ? FG_OK : FG_ERR_MEMORY;
+    if (!s->setting->plugin)
+        return FG_ERR_UNSUPPORTED;
+    fg_status status = stability_with_known(s, "vpls=4 max_lights=4 map_size=32", &own);
     if (status != FG_OK)
         return status;
     view.width = view.height = 4096;

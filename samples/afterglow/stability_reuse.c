@@ -35,13 +35,13 @@ static ag_light lamp_behind(void)
 // After the last frame before the jump.
 static fg_status open_before_jump(stability *s, const room *what, reel *r)
 {
-    const fg_status status = reel_open(s, what, (shot){ 0 }, BUDGETED, true, r);
+    const fg_status status = reel_open(s, what, (shot){ 0 }, BUDGETED " tiles=1", true, r);
     return status == FG_OK ? reel_run(r, 0.4, 0.02, 4) : status;
 }
 
-// BUDGET VPLs stand for all of the power: the mean is that of BUDGET samples, evenly spread, of
-// what a VPL gives to the picture by its place.
-static fg_status jump_energy(stability *s, double *out)
+// The picture's mean in the first frame after, over that of a renderer that has seen no jump, with
+// `lights` VPLs.
+static fg_status jump_against(stability *s, const char *lights, double *out)
 {
     const ag_light lamp = lamp_behind();
     const room what = divided_room(&lamp);
@@ -54,12 +54,25 @@ static fg_status jump_energy(stability *s, double *out)
     if (status == FG_OK)
         status = reel_mean(&r, &mean);
     if (status == FG_OK)
-        status = reel_fresh(s, &what, (shot){ 0 }, BUDGETED, 0.6, &fresh);
+        status = reel_fresh(s, &what, (shot){ 0 }, lights, 0.6, &fresh);
     if (status == FG_OK)
         *out = stability_change(mean, stability_mean(&fresh));
     image_finish(&fresh);
     reel_close(&r);
     return status;
+}
+
+// Nothing is left of what was: BUDGET VPLs are where they would be first of all, with all power.
+static fg_status jump_as_new(stability *s, double *out)
+{
+    return jump_against(s, BUDGETED " tiles=1 max_lights=8", out);
+}
+
+// If a VPL gives the picture anything from nothing to twice the mean, by its place, that is
+// 1/sqrt(3) to either side; BUDGET of them, 0.2.
+static fg_status jump_energy(stability *s, double *out)
+{
+    return jump_against(s, BUDGETED " tiles=1", out);
 }
 
 static double points_short(const reel *r)
@@ -255,7 +268,7 @@ static fg_status renews_all(stability *s, double *out)
 
 static fg_status one_tile(stability *s, double *out)
 {
-    return differing(s, SMALL " tiles=1 alpha=0 beta=1", SMALL " tiles=1", out);
+    return differing(s, SMALL " tiles=1 alpha=1e-9 beta=1", SMALL " tiles=1", out);
 }
 
 static fg_status no_recalc(stability *s, double *out)
@@ -291,7 +304,7 @@ static fg_status mean_with(stability *s, int lights, double *out)
 {
     char values[96];
     image img = { 0 };
-    snprintf(values, sizeof values, "delay=0 map_size=16 max_lights=%d", lights);
+    snprintf(values, sizeof values, "delay=0 map_size=16 tiles=1 max_lights=%d", lights);
     const fg_status status = moving_picture(s, tiny, values, &img);
     if (status == FG_OK)
         *out = stability_mean(&img);
@@ -312,11 +325,14 @@ static fg_status counts(stability *s, const int *list, double *out)
     return status;
 }
 
+// From nothing to twice the mean: see above.
 static fg_status few_lights(stability *s, double *out)
 {
     return counts(s, (const int[]){ 1, 2, 3, 0 }, out);
 }
 
+// Of N patches 4 sqrt(N) lie at the rim of what is lit. What of them reaches beyond a surface's
+// edge, a quarter at most, lights nothing: of 255 patches, 6 %.
 static fg_status many_lights(stability *s, double *out)
 {
     return counts(s, (const int[]){ 255, 256, 257, 1024, 0 }, out);
@@ -324,17 +340,40 @@ static fg_status many_lights(stability *s, double *out)
 
 // ---- rows 27, 28: tiles ----------------------------------------------------------------------
 
-// With as many VPLs a pixel's subset is not what differs: only that pixels of a block have
-// different ones.
+// The back wall alone: a plane, on which the filter leaves nothing of the pattern.
+static fg_status wall_picture(stability *s, const int size[2], const char *values, image *out)
+{
+    const ag_light lamp = stability_lamp();
+    const room what = { .lights = &lamp, .light_count = 1 };
+    ag_camera camera = ag_default_camera();
+    reel r;
+    *out = (image){ 0 };
+    for (int i = 0; i < 4; ++i)
+        camera.world[5 * (size_t) i] = 1;
+    camera.world[14] = 0.49;
+    camera.yfov = 0.6f;
+    camera.znear = 1e-3f;
+    const shot view = { .camera = &camera, .width = size[0], .height = size[1] };
+    fg_status status = reel_open(s, &what, view, values, true, &r);
+    if (status == FG_OK)
+        status = reel_run(&r, 0, 0, 1);
+    if (status == FG_OK)
+        status = reel_picture(&r, out);
+    reel_close(&r);
+    return status;
+}
+
+// A window of n x n pixels is half a pixel off, sqrt(2) / 2 across, of 96; the wall's light changes
+// by no more than its mean over the picture: 0.0074. Within n / 2 pixels of the picture's border it
+// is n / 4 off on average: with n = 8 in a sixth of the pixels, sqrt(1 / 6) x 2 / 96 = 0.0085 more.
 static fg_status tiles_against_none(stability *s, const int size[2], const char *tiles, double *out)
 {
-    const shot view = { .width = size[0], .height = size[1] };
     char values[96];
     image a = { 0 }, b = { 0 };
-    snprintf(values, sizeof values, "delay=0 max_lights=256 map_size=32 %s", tiles);
-    fg_status status = moving_picture(s, view, values, &a);
+    snprintf(values, sizeof values, "delay=0 max_lights=256 map_size=64 %s", tiles);
+    fg_status status = wall_picture(s, size, values, &a);
     if (status == FG_OK)
-        status = moving_picture(s, view, "delay=0 max_lights=256 map_size=32 tiles=1", &b);
+        status = wall_picture(s, size, "delay=0 max_lights=256 map_size=64 tiles=1", &b);
     if (status == FG_OK)
         status = stability_rmse(s, &a, &b, out);
     image_finish(&a);
@@ -354,12 +393,15 @@ static fg_status tiles_of_8(stability *s, double *out)
 
 static fg_status odd_tiles(stability *s, double *out)
 {
-    return tiles_against_none(s, (const int[]){ 93, 97 }, "tiles=4", out);
+    return tiles_against_none(s, (const int[]){ 93, 97 }, "tiles=8", out);
 }
 
 // ---- row 33 ----------------------------------------------------------------------------------
 
-// Nothing is hidden from anything in a convex room, of twelve triangles as large as its walls.
+// Nothing is hidden from anything in a convex room, of twelve triangles as large as its walls. A
+// texel of 1/128 m at 1 m takes in the neighbouring wall along eight edges, on both sides: 2.5 % of
+// what is seen, and of its light about an eighth, what comes along the wall: sqrt(0.025) / 8 =
+// 0.02.
 static fg_status empty_room(stability *s, double *out)
 {
     const ag_light lamp = stability_lamp();
@@ -390,7 +432,9 @@ const stability_case stability_reuse_cases[] = {
     { 7, "recalc_of_all_is_anew", differing_values, 0, NULL, 0, renews_all },
     { 7, "tiles_of_1", differing_values, 0, NULL, 0, one_tile },
     { 9, "no_hits_are_said_once", "warnings but one", 0, NULL, 0, said_once },
-    { 19, "light_jumps_away", "relative error of the mean, first frame after", 0.1, NULL, 0,
+    { 19, "light_jumps_away", "change of the mean from a new one of as many", 1e-5, NULL, 0,
+      jump_as_new },
+    { 19, "light_jumps_away_energy", "change of the mean from a new one in full", 0.2, NULL, 0,
       jump_energy },
     { 19, "light_jumps_away_recovers", points, 0, NULL, 0, jump_recovers },
     { 19, "maps_of_a_jump", "maps beyond recalc_max in a frame", 0, NULL, 0, jump_maps },
@@ -398,12 +442,12 @@ const stability_case stability_reuse_cases[] = {
     { 20, "long_run_points", points, 0, NULL, 0, long_run_points },
     { 20, "long_run_dispersion", "over a hexagonal lattice's", 2, NULL, 0, long_run_dispersion },
     { 20, "light_comes_to_rest", differing_values, 0, NULL, 0, comes_to_rest },
-    { 26, "max_lights_1_to_3", "relative error of the mean", 0.5, NULL, 0, few_lights },
-    { 26, "max_lights_255_to_4096", "relative error of the mean", 0.02, NULL, 0, many_lights },
-    { 27, "tiles_over_the_edge", rmse, 0.05, NULL, 0, odd_tiles },
-    { 28, "tiles_of_4", rmse, 0.05, NULL, 0, tiles_of_4 },
-    { 28, "tiles_of_8", rmse, 0.1, NULL, 0, tiles_of_8 },
-    { 33, "empty_room", rmse, 0.01, NULL, 0, empty_room },
+    { 26, "max_lights_1_to_3", "relative error of the mean", 1, NULL, 0, few_lights },
+    { 26, "max_lights_255_to_4096", "relative error of the mean", 0.06, NULL, 0, many_lights },
+    { 27, "tiles_over_the_edge", rmse, 0.016, NULL, 0, odd_tiles },
+    { 28, "tiles_of_4", rmse, 0.01, NULL, 0, tiles_of_4 },
+    { 28, "tiles_of_8", rmse, 0.016, NULL, 0, tiles_of_8 },
+    { 33, "empty_room", rmse, 0.02, NULL, 0, empty_room },
     { 0, "recalc_max_of_0", "new VPLs after the first frame", 0, NULL, 0, no_recalc },
     { 0, "recalc_max_of_0_at_first", brightest, 0, NULL, 0, no_recalc_from_nothing },
     { 0 },

@@ -49,6 +49,7 @@ static const struct {
     { "cluster", STAGE_VPLS },
     { "tree", STAGE_VPLS },
     { "vpl", STAGE_VPLS },
+    { "upload", STAGE_VPLS },
     { "eye_variation", STAGE_MIPMAPS },
     { "variation", STAGE_MIPMAPS },
     { "refine", STAGE_REFINE },

@@ -153,9 +153,9 @@ const study studies[] = {
     {
         .name = "iir_recalc",
         .title = "Error against the budget of new VPLs, by the speed of the light",
-        .curves = { { "iir recalc_min=1", "as it is", .speed = 1 },
-                    { "iir recalc_min=1", "8 times as fast", .speed = 8 },
-                    { "iir recalc_min=1", "64 times as fast", .speed = 64 } },
+        .curves = { { "iir", "as it is", .speed = 1 },
+                    { "iir", "8 times as fast", .speed = 8 },
+                    { "iir", "64 times as fast", .speed = 64 } },
         .x = "recalc_max",
         .x_label = "new VPLs a frame, at most",
         .x_log = true,
