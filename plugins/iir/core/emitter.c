@@ -72,13 +72,12 @@ static double angle_of(const iir_emitter *e, double radius, double *rest)
 
 // ---- what a light is --------------------------------------------------------------------------
 
-static void axes_along(const float direction[3], double axes[3][3])
+static void set_axes(iir_emitter *e, const float direction[3])
 {
     const double d[3] = { (double) direction[0], (double) direction[1], (double) direction[2] };
-    const double length = sqrt(dot(d, d));
-    for (int k = 0; k < 3; k++)
-        axes[2][k] = d[k] / length;
-    ag_frame_about(axes[2], axes[0], axes[1]);
+    const double length = sqrt(dot(d, d)), n[3] = { d[0] / length, d[1] / length, d[2] / length };
+    ag_frame_about(n, e->axes[0], e->axes[1]);
+    memcpy(e->axes[2], n, sizeof n);
 }
 
 // The disc across the scene's bounding sphere, far enough before it that no surface touches it.
@@ -116,7 +115,7 @@ bool iir_emitter_from_light(const ag_light *light, const double box_min[3], cons
     out->cosine = light->kind == AG_LIGHT_SPOT && light->cosine;
     memcpy(out->position, light->position, sizeof out->position);
     if (light->kind != AG_LIGHT_POINT)
-        axes_along(light->direction, out->axes);
+        set_axes(out, light->direction);
     if (light->kind == AG_LIGHT_SPOT) {
         const double inner = (double) light->cos_inner, outer = (double) light->cos_outer;
         out->ramp = out->cosine ? 1 : fmax(1e-3, inner - outer);
