@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "iir_points.h"
 
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
 #include <math.h>
 #include <string.h>
 
@@ -8,12 +12,6 @@ double points_random(uint64_t *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return (double) (*state >> 11) * 0x1p-53;
-}
-
-static double distance2(const double a[3], const double b[3])
-{
-    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    return x * x + y * y + z * z;
 }
 
 static void spherical(double azimuth, double z, double out[3])
@@ -125,159 +123,34 @@ void points_make(points_kind kind, iir_space space, uint64_t *state, int count, 
     }
 }
 
-// ---- by brute force --------------------------------------------------------------------------
+const points_back points_backs[POINTS_BACKS] = {
+    { IIR_DISC, IIR_TRIANGULATION_DEFAULT, "disc" },
+    { IIR_SPHERE, IIR_TRIANGULATION_DEFAULT, "sphere" },
+    { IIR_SPHERE, IIR_TRIANGULATION_TETRA, "tetra" },
+};
 
-void points_corners_of(const iir_domain *d, int capacity, points_corners *out)
+iir_domain *points_domain(const points_back *back, int capacity)
 {
-    out->count = 0;
-    for (int id = 0; id < capacity; ++id) {
-        if (!iir_domain_has(d, id) || iir_domain_duplicate_of(d, id) >= 0)
-            continue;
-        out->ids[out->count] = id;
-        iir_domain_point(d, id, out->at[out->count++]);
-    }
+    const iir_domain_desc desc = { .space = back->space,
+                                   .triangulation = back->triangulation,
+                                   .capacity = capacity };
+    iir_domain *d = iir_domain_create(&desc);
+    assert_non_null(d);
+    return d;
 }
 
-double points_nearest(const points_corners *c, const double place[3], int *which)
+void points_set(iir_domain *d, double (*points)[3], int count)
 {
-    double least = INFINITY;
-    for (int i = 0; i < c->count; ++i) {
-        const double distance = distance2(c->at[i], place);
-        if (distance < least) {
-            least = distance;
-            *which = i;
-        }
-    }
-    return sqrt(least);
+    static int ids[POINTS_MAX];
+    for (int i = 0; i < count; ++i)
+        ids[i] = i;
+    assert_int_equal(iir_domain_set(d, (const double(*)[3]) points, ids, count), FG_OK);
 }
 
-double points_least_distance(const points_corners *c)
+int points_free_id(const iir_domain *d)
 {
-    double least = INFINITY;
-    for (int i = 0; i < c->count; ++i)
-        for (int k = 0; k < i; ++k)
-            least = fmin(least, distance2(c->at[i], c->at[k]));
-    return sqrt(least);
-}
-
-// How much of the bisector of p and q is as near to them as to all others: the length of the edge
-// between them, negative by how much it is missed.
-//
-// The bisector is middle + s way, s real, in the plane. On the sphere, seen from its centre, it is
-// the circle cos(s) middle + sin(s) way; each third point leaves half of it.
-static double disc_edge(const points_corners *c, int p, int q)
-{
-    const double *a = c->at[p], *b = c->at[q];
-    const double middle[] = { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2 };
-    const double length = sqrt(distance2(a, b));
-    const double way[] = { (a[1] - b[1]) / length, (b[0] - a[0]) / length };
-    double from = -INFINITY, to = INFINITY;
-    for (int i = 0; i < c->count; ++i) {
-        if (i == p || i == q)
-            continue;
-        const double r[] = { c->at[i][0] - middle[0], c->at[i][1] - middle[1] };
-        // |s way - r|^2 >= length^2 / 4 + s^2
-        const double along = r[0] * way[0] + r[1] * way[1];
-        const double rest = (r[0] * r[0] + r[1] * r[1] - length * length / 4) / 2;
-        if (along > 0)
-            to = fmin(to, rest / along);
-        else if (along < 0)
-            from = fmax(from, rest / along);
-        else if (rest < 0)
-            return -1;
-    }
-    return to - from;
-}
-
-static double sphere_edge(const points_corners *c, int p, int q)
-{
-    const double *a = c->at[p], *b = c->at[q];
-    double u[3], middle[3], way[3], norm = 0;
-    for (int k = 0; k < 3; ++k)
-        u[k] = b[k] - a[k];
-    const int axis = fabs(u[0]) < fabs(u[1]) ? 0 : 1; // not along u
-    const double uu = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
-    for (int k = 0; k < 3; ++k) {
-        middle[k] = (k == axis) - u[axis] * u[k] / uu;
-        norm += middle[k] * middle[k];
-    }
-    for (int k = 0; k < 3; ++k)
-        middle[k] /= sqrt(norm);
-    for (int k = 0; k < 3; ++k)
-        way[k] = (u[(k + 1) % 3] * middle[(k + 2) % 3] - u[(k + 2) % 3] * middle[(k + 1) % 3]) /
-                 sqrt(uu);
-    // Half circles about angles: what is common to all is an interval about the first, or nothing.
-    double first = 0, from = -M_PI, to = M_PI;
-    bool any = false;
-    for (int i = 0; i < c->count; ++i) {
-        if (i == p || i == q)
-            continue;
-        const double *r = c->at[i];
-        double x = 0, y = 0;
-        for (int k = 0; k < 3; ++k) {
-            x += (a[k] - r[k]) * middle[k];
-            y += (a[k] - r[k]) * way[k];
-        }
-        const double angle = atan2(y, x);
-        if (!any) {
-            first = angle;
-            from = -M_PI / 2;
-            to = M_PI / 2;
-            any = true;
-            continue;
-        }
-        const double turned = remainder(angle - first, 2 * M_PI);
-        from = fmax(from, turned - M_PI / 2);
-        to = fmin(to, turned + M_PI / 2);
-    }
-    return to - from;
-}
-
-// Squared distance to the second closest neighbour; edges shorter than `least` count as none.
-static double second_distance(const points_corners *c, iir_space space, int p, double least)
-{
-    double near[2] = { INFINITY, INFINITY };
-    for (int q = 0; q < c->count; ++q) {
-        if (q == p)
-            continue;
-        const double distance = distance2(c->at[p], c->at[q]);
-        if (distance >= near[1] ||
-            (space == IIR_DISC ? disc_edge(c, p, q) : sphere_edge(c, p, q)) < least)
-            continue;
-        near[1] = fmax(near[0], distance);
-        near[0] = fmin(near[0], distance);
-    }
-    return near[1];
-}
-
-static double nearest_distance2(const points_corners *c, int p)
-{
-    double least = INFINITY;
-    for (int i = 0; i < c->count; ++i)
-        if (i != p)
-            least = fmin(least, distance2(c->at[i], c->at[p]));
-    return least;
-}
-
-bool points_redundant(const points_corners *c, iir_space space, int id)
-{
-    double least = INFINITY, best = INFINITY, lowest = INFINITY;
-    int first = -1, who = -1;
-    for (int i = 0; i < c->count; ++i)
-        least = fmin(least, nearest_distance2(c, i));
-    for (int i = 0; i < c->count; ++i) {
-        if (nearest_distance2(c, i) > least)
-            continue;
-        // Edges that are not longer than rounding may be there or not.
-        const double sure = second_distance(c, space, i, 1e-9);
-        if (sure < best || (sure == best && c->ids[i] > first)) {
-            best = sure;
-            first = c->ids[i];
-        }
-        if (c->ids[i] == id) {
-            who = i;
-            lowest = second_distance(c, space, i, -1e-9);
-        }
-    }
-    return who >= 0 && (first == id || lowest < best);
+    int id = 0;
+    while (iir_domain_has(d, id))
+        ++id;
+    return id;
 }

@@ -10,200 +10,196 @@
 #include <stdio.h>
 
 static double points[POINTS_MAX][3];
-static double areas[POINTS_MAX];
-static int ids[POINTS_MAX];
+static double areas[POINTS_MAX], other_areas[POINTS_MAX];
 static points_corners corners;
 
-static const struct {
-    iir_space space;
-    iir_triangulation triangulation;
-    const char *name;
-} backs[] = {
-    { IIR_DISC, IIR_TRIANGULATION_DEFAULT, "disc" },
-    { IIR_SPHERE, IIR_TRIANGULATION_DEFAULT, "sphere" },
-    { IIR_SPHERE, IIR_TRIANGULATION_TETRA, "tetra" },
-};
+static uint64_t random_state;
+static char what[64];
 
-static double whole(iir_space space)
+static points_case case_of(int back, int capacity)
 {
-    return space == IIR_DISC ? M_PI : 4 * M_PI;
+    return (points_case){ .d = points_domain(&points_backs[back], capacity),
+                          .back = &points_backs[back],
+                          .capacity = capacity,
+                          .random = &random_state,
+                          .what = what };
 }
 
-static iir_domain *domain_of(int back, int capacity)
+static void set_kind(const points_case *c, int kind, int count)
 {
-    const iir_domain_desc desc = { .space = backs[back].space,
-                                   .triangulation = backs[back].triangulation,
-                                   .capacity = capacity };
-    iir_domain *d = iir_domain_create(&desc);
-    assert_non_null(d);
-    return d;
+    snprintf(what, sizeof what, "kind %d", kind);
+    points_make((points_kind) kind, c->back->space, c->random, count, points);
+    points_set(c->d, points, count);
 }
 
-static void set_points(iir_domain *d, int count)
+// Calls for every back end and kind of set.
+static void for_all(void (*check)(int back, int kind))
 {
-    for (int i = 0; i < count; ++i)
-        ids[i] = i;
-    assert_int_equal(iir_domain_set(d, (const double(*)[3]) points, ids, count), FG_OK);
+    random_state = 1;
+    for (int back = 0; back < POINTS_BACKS; ++back)
+        for (int kind = 0; kind < POINTS_KINDS; ++kind)
+            check(back, kind);
 }
 
-static void areas_hold(iir_domain *d, int back, int capacity, const char *what)
+static void check_sets(int back, int kind)
 {
-    double sum = 0;
-    iir_domain_areas(d, areas);
-    for (int id = 0; id < capacity; ++id) {
-        const bool corner = iir_domain_has(d, id) && iir_domain_duplicate_of(d, id) < 0;
-        if (corner ? !(areas[id] > 0) : areas[id] != 0)
-            fail_msg("%s, %s: the cell of %d is %g", backs[back].name, what, id, areas[id]);
-        sum += areas[id];
-    }
-    const double all = iir_domain_count(d) > 0 ? whole(backs[back].space) : 0;
-    if (!(fabs(sum - all) <= 1e-9))
-        fail_msg("%s, %s, %d points: areas sum to %.17g, off by %g", backs[back].name, what,
-                 iir_domain_count(d), sum, sum - all);
-}
-
-// The circle is empty, and none of `probes` places is farther from all points.
-static void circle_holds(iir_domain *d, int back, uint64_t *state, int probes, const char *what)
-{
-    int which = -1;
-    double centre[3], place[3];
-    const double radius = iir_domain_largest_empty_circle(d, centre);
-    if (corners.count == 0)
-        return;
-    const double norm = sqrt(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]);
-    assert_true(norm <= 1 + 1e-15 && (backs[back].space == IIR_DISC || norm >= 1 - 1e-15));
-    // Corners of thin triangles are known to 1e-9 at points IIR_DUPLICATE apart, see domain_disc.c.
-    const double slack = 1e-8;
-    const double true_radius = points_nearest(&corners, centre, &which);
-    if (!(fabs(true_radius - radius) <= slack))
-        fail_msg("%s, %s, %d: the circle has radius %.17g, its next point is at %.17g",
-                 backs[back].name, what, corners.count, radius, true_radius);
-    for (int i = 0; i < probes; ++i) {
-        points_random_place(state, backs[back].space, place);
-        if (points_nearest(&corners, place, &which) > radius + slack)
-            fail_msg("%s, %s, %d: %g at (%g %g %g) beats %g", backs[back].name, what, corners.count,
-                     points_nearest(&corners, place, &which), place[0], place[1], place[2], radius);
+    static const int sizes[] = { 0, 1, 2, 3, 4, 5, 6, 7, 9, 12, 16, 25, 48 };
+    for (int i = 0; i < FG_COUNT(sizes); ++i) {
+        const points_case c = case_of(back, sizes[i] + 1);
+        for (int round = 0; round < (back == POINTS_TETRA ? 4 : 12); ++round) {
+            set_kind(&c, kind, sizes[i]);
+            points_areas_hold(&c);
+            points_circle_holds(&c, 100);
+            points_deletion_holds(&c);
+        }
+        iir_domain_destroy(c.d);
     }
 }
-
-static void deletion_holds(iir_domain *d, int back, int capacity, const char *what)
-{
-    int same = -1;
-    const int id = iir_domain_redundant(d);
-    if (iir_domain_count(d) < 2) {
-        assert_int_equal(id, -1);
-        return;
-    }
-    for (int i = 0; i < capacity; ++i)
-        if (iir_domain_duplicate_of(d, i) >= 0)
-            same = i;
-    if (same >= 0) {
-        assert_int_equal(id, same);
-        return;
-    }
-    const double least = iir_domain_least_distance(d);
-    assert_true(least == points_least_distance(&corners));
-    if (!points_redundant(&corners, backs[back].space, id))
-        fail_msg("%s, %s, %d points: %d is not the one to take", backs[back].name, what,
-                 corners.count, id);
-}
-
-static void all_holds(iir_domain *d, int back, int capacity, uint64_t *state, const char *what)
-{
-    points_corners_of(d, capacity, &corners);
-    areas_hold(d, back, capacity, what);
-    circle_holds(d, back, state, 200, what);
-    deletion_holds(d, back, capacity, what);
-}
-
-static const int sizes[] = { 0, 1, 2, 3, 4, 5, 6, 7, 9, 12, 16, 25, 48 };
 
 static void sets_of_all_kinds_hold(void **state)
 {
     (void) state;
-    uint64_t random = 1;
-    char what[64];
-    for (int back = 0; back < FG_COUNT(backs); ++back)
-        for (int kind = 0; kind < POINTS_KINDS; ++kind)
-            for (int i = 0; i < FG_COUNT(sizes); ++i) {
-                const int n = sizes[i];
-                iir_domain *d = domain_of(back, n + 1);
-                for (int round = 0; round < 4; ++round) {
-                    snprintf(what, sizeof what, "kind %d round %d", kind, round);
-                    points_make((points_kind) kind, backs[back].space, &random, n, points);
-                    set_points(d, n);
-                    all_holds(d, back, n + 1, &random, what);
-                }
-                iir_domain_destroy(d);
-            }
+    for_all(check_sets);
 }
 
-// Insertion at the centre never makes the circle larger, deletion never brings points together.
+static void check_probes(int back, int kind)
+{
+    const points_case c = case_of(back, 40);
+    set_kind(&c, kind, 40);
+    points_circle_holds(&c, 100000);
+    iir_domain_destroy(c.d);
+}
+
+static void nothing_beats_the_largest_empty_circle(void **state)
+{
+    (void) state;
+    for_all(check_probes);
+}
+
+// Insertion at the centre never makes the circle larger. Deletion never brings points together, and
+// parts them if there is one closest pair.
+static void check_steps(int back, int kind)
+{
+    const int capacity = 32;
+    const points_case c = case_of(back, capacity);
+    set_kind(&c, kind, 24);
+    for (int step = 0; step < 16; ++step) {
+        double centre[3];
+        const double radius = iir_domain_largest_empty_circle(c.d, centre);
+        assert_int_equal(iir_domain_insert(c.d, points_free_id(c.d), centre), FG_OK);
+        assert_true(iir_domain_largest_empty_circle(c.d, centre) <= radius + POINTS_SLACK);
+        points_areas_hold(&c);
+        points_circle_holds(&c, 50);
+        points_deletion_holds(&c);
+
+        const double least = iir_domain_least_distance(c.d);
+        const int gone = iir_domain_redundant(c.d);
+        const bool corner = iir_domain_duplicate_of(c.d, gone) < 0;
+        points_corners_of(c.d, capacity, &corners);
+        iir_domain_remove(c.d, gone);
+        assert_true(iir_domain_least_distance(c.d) >= least);
+        if (corner && points_pairs_at(&corners, least) == 1)
+            assert_true(iir_domain_least_distance(c.d) > least);
+        points_areas_hold(&c);
+        points_circle_holds(&c, 50);
+        points_deletion_holds(&c);
+    }
+    iir_domain_destroy(c.d);
+}
+
 static void steps_hold(void **state)
 {
     (void) state;
-    char what[64];
-    uint64_t random = 2;
-    for (int back = 0; back < FG_COUNT(backs); ++back)
-        for (int kind = 0; kind < POINTS_KINDS; ++kind) {
-            const int n = 24;
-            iir_domain *d = domain_of(back, n + 8);
-            points_make((points_kind) kind, backs[back].space, &random, n, points);
-            set_points(d, n);
-            for (int step = 0; step < 16; ++step) {
-                double centre[3];
-                const double before = iir_domain_largest_empty_circle(d, centre);
-                int id = 0;
-                while (iir_domain_has(d, id))
-                    ++id;
-                assert_int_equal(iir_domain_insert(d, id, centre), FG_OK);
-                const double after = iir_domain_largest_empty_circle(d, centre);
-                assert_true(after <= before + 1e-8);
-                points_corners_of(d, n + 8, &corners);
-                snprintf(what, sizeof what, "kind %d after insertion", kind);
-                all_holds(d, back, n + 8, &random, what);
-
-                const double least = iir_domain_least_distance(d);
-                iir_domain_remove(d, iir_domain_redundant(d));
-                assert_true(iir_domain_least_distance(d) >= least);
-                snprintf(what, sizeof what, "kind %d after deletion", kind);
-                all_holds(d, back, n + 8, &random, what);
-            }
-            iir_domain_destroy(d);
-        }
+    for_all(check_steps);
 }
 
-// Down to none and up again, by every way there is.
-static void few_points_come_and_go(void **state)
+// A cell is what is nearer to its point than to others: shares of random places.
+static void check_shares(int back, int kind)
+{
+    static int hits[POINTS_MAX];
+    const int count = 20, places = 40000;
+    const points_case c = case_of(back, count);
+    set_kind(&c, kind, count);
+    points_corners_of(c.d, count, &corners);
+    iir_domain_areas(c.d, areas);
+    for (int i = 0; i < corners.count; ++i)
+        hits[i] = 0;
+    for (int i = 0; i < places; ++i) {
+        int which = 0;
+        double place[3];
+        points_random_place(c.random, c.back->space, place);
+        points_nearest(&corners, place, &which);
+        ++hits[which];
+    }
+    for (int i = 0; i < corners.count; ++i) {
+        const double share = areas[corners.ids[i]] / (c.back->space == IIR_DISC ? M_PI : 4 * M_PI);
+        // Six standard deviations of a binomial distribution, two in a thousand million; and one
+        // hit more, where its tail is longer than a normal one's.
+        const double slack = 6 * sqrt(places * share * (1 - share)) + 1;
+        if (!(fabs(hits[i] - places * share) <= slack))
+            fail_msg("%s, kind %d: %d has %d of %d places, %g expected", c.back->name, kind,
+                     corners.ids[i], hits[i], places, places * share);
+    }
+    iir_domain_destroy(c.d);
+}
+
+static void cells_are_what_is_nearest(void **state)
 {
     (void) state;
-    uint64_t random = 3;
-    char what[64];
-    for (int run = 0; run < FG_COUNT(backs) * 5 * 60; ++run) {
-        const int back = run % FG_COUNT(backs), n = 2 + run / FG_COUNT(backs) % 5;
-        iir_domain *d = domain_of(back, n);
-        for (int step = 0; step < 30; ++step) {
-            double place[3];
-            const int id = (int) (points_random(&random) * n);
-            points_random_place(&random, backs[back].space, place);
-            if (iir_domain_has(d, id))
-                iir_domain_remove(d, id);
-            else
-                assert_int_equal(iir_domain_insert(d, id, place), FG_OK);
-            points_corners_of(d, n, &corners);
-            snprintf(what, sizeof what, "run %d step %d", run, step);
-            areas_hold(d, back, n, what);
+    for_all(check_shares);
+}
+
+// The most points there may be, one short of that of the tetrahedra, which take long.
+static void check_many(int back, int kind)
+{
+    const int count = back == POINTS_TETRA ? 256 : POINTS_MAX;
+    const points_case c = case_of(back, count);
+    set_kind(&c, kind, count);
+    points_areas_hold(&c);
+    points_circle_holds(&c, 100);
+    iir_domain_destroy(c.d);
+}
+
+static void many_points_hold(void **state)
+{
+    (void) state;
+    for_all(check_many);
+}
+
+static void sphere_and_tetrahedra_agree(void **state)
+{
+    (void) state;
+    random_state = 4;
+    double centres[2][3];
+    for (int kind = 0; kind < POINTS_KINDS; ++kind)
+        for (int count = 0; count < 120; count = count * 3 / 2 + 1) {
+            const points_case a = case_of(POINTS_SPHERE, count + 1);
+            const points_case b = case_of(POINTS_TETRA, count + 1);
+            set_kind(&a, kind, count);
+            points_set(b.d, points, count);
+            iir_domain_areas(a.d, areas);
+            iir_domain_areas(b.d, other_areas);
+            for (int i = 0; i < count; ++i)
+                if (!(fabs(areas[i] - other_areas[i]) <= 1e-9))
+                    fail_msg("kind %d, %d points: the cell of %d is %g or %g", kind, count, i,
+                             areas[i], other_areas[i]);
+            assert_true(fabs(iir_domain_largest_empty_circle(a.d, centres[0]) -
+                             iir_domain_largest_empty_circle(b.d, centres[1])) <= POINTS_SLACK);
+            assert_true(iir_domain_least_distance(a.d) == iir_domain_least_distance(b.d));
+            iir_domain_destroy(a.d);
+            iir_domain_destroy(b.d);
         }
-        iir_domain_destroy(d);
-    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_of_all_kinds_hold),
+        cmocka_unit_test(nothing_beats_the_largest_empty_circle),
         cmocka_unit_test(steps_hold),
-        cmocka_unit_test(few_points_come_and_go),
+        cmocka_unit_test(cells_are_what_is_nearest),
+        cmocka_unit_test(many_points_hold),
+        cmocka_unit_test(sphere_and_tetrahedra_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

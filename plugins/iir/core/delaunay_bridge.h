@@ -35,7 +35,8 @@ typedef struct delaunay delaunay;
 delaunay *delaunay_create(delaunay_kind kind, int capacity);
 void delaunay_destroy(delaunay *t); // accepts NULL
 
-// After an error of any of these only delaunay_clear() and delaunay_destroy() may follow.
+// After an error of any of these only delaunay_destroy() may follow. (And CGAL 5.5 leaves a table
+// of the thread's in disorder if memory runs out in space: no DELAUNAY_TETRA works there any more.)
 //
 // Errors: FG_ERR_MEMORY; FG_ERR_INVALID where points are nearer to each other than allowed.
 FG_NODISCARD fg_status delaunay_clear(delaunay *t);

@@ -88,10 +88,10 @@ void iir_domain_destroy(iir_domain *d)
     free(d);
 }
 
-static bool domain_allocate(iir_domain *d, delaunay_kind kind)
+static bool domain_allocate(iir_domain *d)
 {
     const size_t n = (size_t) d->capacity;
-    d->net = delaunay_create(kind, d->capacity);
+    d->net = delaunay_create(d->kind, d->capacity);
     d->ring = malloc(4 * n * sizeof *d->ring);
     d->points = malloc(n * sizeof *d->points);
     d->twin = malloc(n * sizeof *d->twin);
@@ -141,7 +141,8 @@ iir_domain *iir_domain_create(const iir_domain_desc *desc)
     d->capacity = desc->capacity;
     const delaunay_kind on_sphere =
         desc->triangulation == IIR_TRIANGULATION_TETRA ? DELAUNAY_TETRA : DELAUNAY_SPHERE;
-    if (!domain_allocate(d, desc->space == IIR_DISC ? DELAUNAY_PLANE : on_sphere)) {
+    d->kind = desc->space == IIR_DISC ? DELAUNAY_PLANE : on_sphere;
+    if (!domain_allocate(d)) {
         iir_domain_destroy(d);
         return NULL;
     }
@@ -174,11 +175,15 @@ static fg_status give_up(iir_domain *d, fg_status status)
     return status;
 }
 
+// CGAL is not in order after it ran out of memory: a new triangulation.
 static fg_status mend(iir_domain *d)
 {
-    const fg_status status = d->broken ? delaunay_clear(d->net) : FG_OK;
-    d->broken = status != FG_OK;
-    return status;
+    if (!d->broken)
+        return FG_OK;
+    delaunay_destroy(d->net);
+    d->net = delaunay_create(d->kind, d->capacity);
+    d->broken = !d->net;
+    return d->net ? FG_OK : FG_ERR_MEMORY;
 }
 
 // The ring of a corner into d->ring, from its smallest entry on. None, and the domain is empty,
@@ -274,10 +279,9 @@ fg_status iir_domain_set(iir_domain *d, const double (*points)[3], const int *id
 {
     int corners = 0;
     forget_points(d);
-    d->broken = true;
-    fg_status status = mend(d);
+    fg_status status = d->broken ? mend(d) : delaunay_clear(d->net);
     if (status != FG_OK)
-        return status;
+        return give_up(d, status);
     int *list = d->ring; // of corners; has room for all
     for (int i = 0; i < count; ++i) {
         if (!add_point(d, ids[i], points[i])) {

@@ -45,8 +45,9 @@ struct iir_domain {
     int capacity;
     int count;
     int duplicates;
-    bool broken; // the triangulation ran out of memory and is to be cleared
-    delaunay *net;
+    bool broken; // the triangulation ran out of memory and is to be made again
+    delaunay_kind kind;
+    delaunay *net;       // NULL only if broken
     int *ring;           // [4 capacity], of the corner in work; the second half is scratch
     double (*points)[3]; // by id, as all below
     int *twin;           // DOMAIN_ABSENT, DOMAIN_CORNER, or the corner that it is a duplicate of

@@ -77,7 +77,7 @@ struct iir_manager {
     sort_entry *sorted; // [capacity]
     iir_vpl *vpls[2];   // this result's, and the one's before
     iir_point *shown[2];
-    iir_result result;  // in the making
+    iir_result result; // in the making
     iir_result results[2];
     int turn;
     uint64_t births;
