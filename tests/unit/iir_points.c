@@ -72,7 +72,8 @@ static void on_circle(iir_space space, double share, double radius, double out[3
 static void on_lattice(iir_space space, int i, int count, double out[3])
 {
     const int side = (int) ceil(sqrt((double) count));
-    const double u = (i % side + 0.5) / side, v = (i / side + 0.5) / side;
+    const int column = i % side, row = i / side;
+    const double u = (column + 0.5) / side, v = (row + 0.5) / side;
     if (space == IIR_SPHERE) {
         spherical(2 * M_PI * u, 2 * v - 1, out);
         return;

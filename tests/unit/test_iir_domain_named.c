@@ -181,7 +181,8 @@ static void a_point_in_a_ring_has_a_polygon(void **state)
     (void) state;
     static double p[40][3];
     for (int n = 3; n < 40; ++n)
-        for (double r = 0.1; r <= 1; r += 0.1) {
+        for (int tenth = 1; tenth <= 10; ++tenth) {
+            const double r = 0.1 * tenth;
             p[n][0] = p[n][1] = p[n][2] = 0;
             for (int i = 0; i < n; ++i) {
                 p[i][0] = r * cos(2 * M_PI * i / n);

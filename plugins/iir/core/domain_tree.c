@@ -19,7 +19,7 @@ void domain_tree_destroy(domain_tree *t)
 
 static int winner(const domain_tree *t, const iir_domain *d, domain_before *before, int node)
 {
-    const int a = t->nodes[2 * node], b = t->nodes[2 * node + 1];
+    const int *pair = &t->nodes[2 * (size_t) node], a = pair[0], b = pair[1];
     if (a < 0 || b < 0)
         return a < 0 ? b : a;
     return before(d->cells, a, b) ? a : b;
