@@ -55,7 +55,8 @@ const command command_report = {
         "all combinations of quality parameters (beyond 200: each alone). --set fixes a "
         "parameter.\n"
         "full runs the studies too, figures of the papers drawn again: time and error over a\n"
-        "parameter, cost by stage. --study NAME runs that one and no sweep; a wrong name lists "
+        "parameter or along a path, cost by stage. --study NAME runs that one and no sweep; a "
+        "wrong name lists "
         "them.\n"
         "report --merge DIR... -o DIR joins what --shard I/N runs have written.",
     .option_names = OPTIONS_SCENE OPTIONS_GPU

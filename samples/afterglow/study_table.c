@@ -163,7 +163,7 @@ const study studies[] = {
         .baselines = { "iir mode=anew max_lights=4096 delay=0" },
         .panels = { { PANEL_LINES, 0, "Mean along the path, against 4096 VPLs anew." },
                     { PANEL_LINES, PANEL_MS, "What the budget costs." } },
-        .path = { .frames = { 12, 60 }, .rate = 60, .tour = true, .compared = { 1, 4 } },
+        .path = { .frames = { 6, 60 }, .rate = 60, .tour = true, .compared = { 1, 4 } },
     },
     {
         .name = "iir_path",

@@ -179,6 +179,21 @@ def the_graph_is_printed_in_every_format(folder):
     succeeds(*common, '--needs', 'all')
 
 
+def what_stability_asks_of_iir_is_there(folder):
+    # Rows for VPLs that are kept go by names: without one they would not be served, and nobody would see.
+    iir = [p for p in json.loads(succeeds('plugins', '--json').out) if p['name'] == 'iir'][0]
+    assert {p['name'] for p in iir['params']} >= {
+        'mode', 'max_lights', 'recalc_min', 'recalc_max', 'delay', 'first', 'settle', 'visibility', 'map_size', 'tiles',
+        'alpha', 'beta', 'clamp'}, iir
+    assert [layer['name'] for layer in iir['layers']][0] == 'vpls'
+    succeeds('render', 'cornell', '--gi', 'iir', '--set', 'map_size=16', '--size', '8x8', '-o', folder + '/a.png',
+             '--stats', folder + '/s.json')
+    with open(folder + '/s.json') as f:
+        counters = json.load(f)['counters']
+    assert {'vpls', 'escaped', 'shadow_maps', 'new_vpls', 'invalid', 'dispersion', 'manage_ms'} <= set(counters), counters
+    assert counters['vpls'] + counters['escaped'] == 256
+
+
 def plugins_scenes_and_info_are_json(folder):
     plugins = json.loads(succeeds('plugins', '--json').out)
     rsm = [p for p in plugins if p['name'] == 'rsm'][0]
@@ -231,4 +246,4 @@ if __name__ == '__main__':
           every_layer_can_be_had, stats_have_the_shape_that_is_promised, a_sequence_takes_turns,
           a_pipe_gets_the_whole_of_it, frame_n_is_the_nth_of_a_sequence, the_reference_depends_on_the_seed_alone,
           direct_light_is_that_of_the_reference, shadow_maps_and_their_filter_are_chosen, the_graph_is_printed_in_every_format,
-          plugins_scenes_and_info_are_json, a_scene_in_the_dark_gets_a_light_and_a_warning])
+          what_stability_asks_of_iir_is_there, plugins_scenes_and_info_are_json, a_scene_in_the_dark_gets_a_light_and_a_warning])

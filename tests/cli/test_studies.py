@@ -76,6 +76,61 @@ def studies_of_shards_join(folder):
     fails(3, ['another folder has'], 'report', '--merge', parts[0], parts[0], '-o', folder + '/twice')
 
 
+IIR = ['report', 'cornell', '--gi', 'iir', '--set', 'map_size=16', '--size', '8x8', '--spp', 1]
+
+
+def by_curve(report, name):
+    study = next(s for s in report['studies'] if s['name'] == name)
+    return {p['curve']: p for p in study['points']}
+
+
+def incremental_and_anew_are_tables_of_all_scenes(folder):
+    succeeds(*IIR, '--study', 'iir_tables', '-o', folder)
+    report = load(folder)
+    points = by_curve(report, 'iir_tables')
+    assert report['notes'] == [] and len(points) == 4, points.keys()
+    assert [p['size'] for p in points.values()] == [[8, 8], [8, 8], [13, 13], [13, 13]]
+    for curve, point in points.items():
+        stages = {s['stage']: s['ms'] for s in point['stages']}
+        assert all(stages[name] > 0 for name in ['split', 'gather, splat', 'combine', 'filter']), stages
+        assert stages['other'] == 0, [p['name'] for p in point['passes']]
+        # A tour moves the light of a scene in which nothing moves; no more than recalc_max are new.
+        maps = point['path']['counters']['shadow_maps']
+        assert len(maps) == len(point['path']['ms']) == 8 and max(maps) > 0, maps
+        assert min(maps) > 8 if 'anew' in curve else max(maps) <= 8, (curve, maps)
+        assert min(point['path']['counters']['manage_ms']) > 0
+    with open(folder + '/report.html') as f:
+        page = f.read()
+    assert 'Table 1: incremental against anew' in page and 'Table 2: common steps' in page
+    assert page.count('<td>8 &times; 8</td>') == page.count('<td>13 &times; 13</td>') == 2
+
+
+def counters_and_errors_are_noted_along_a_path(folder):
+    run = succeeds(*IIR, *words(['iir_recalc', 'iir_path', 'iir_vpls']), '-o', folder)
+    report = load(folder)
+    assert report['notes'] == [] and not run.lines('warning'), run
+    for curve, point in by_curve(report, 'iir_path').items():
+        path = point['path']
+        assert all(abs(t - 4 * i / 60) < 1e-9 for i, t in enumerate(path['seconds']))
+        assert all(len(list_) == 12 for list_ in [*path['counters'].values(), *path['errors']]), path
+        assert min(path['counters']['dispersion']) >= 1, (curve, path)
+        errors = [e for e in path['errors'][0] if e is not None]
+        assert len(errors) == 2 and path['errors'][0][-1] is not None
+        assert abs(point['errors'][0]['rmse_rms'] - sum(errors) / 2) < 1e-9 and min(errors) > 0
+    recalc = next(s for s in report['studies'] if s['name'] == 'iir_recalc')['points']
+    assert len(recalc) == 21 and all(p['errors'][0]['nonfinite'] == 0 for p in recalc)
+    # One new VPL a frame does not follow a fast light.
+    fast = [p['errors'][0]['rmse_rms'] for p in recalc if p['curve'].startswith('64')]
+    assert fast[0] > fast[-1], fast
+    for name in ['iir_recalc_0', 'iir_recalc_1', 'iir_path_0', 'iir_path_1', 'iir_path_2', 'iir_vpls_0']:
+        assert os.path.getsize('%s/plots/cornell_study_%s.svg' % (folder, name)) > 1000
+    # After a tour all is where it was.
+    succeeds(*IIR, '--study', 'iir_vpls', '-o', folder + '/alone')
+    errors = [[p['errors'] for p in next(s for s in r['studies'] if s['name'] == 'iir_vpls')['points']]
+              for r in [report, load(folder + '/alone')]]
+    assert errors[0] == errors[1] and len(errors[0]) == 8
+
+
 def every_setting_of_every_study_is_taken(folder):
     names = ['stages', 'eye_depth', 'eye_normal', 'path', 'initial', 'tau', 'vpls', 'solid_angle', 'visibility']
     run = succeeds('report', 'cornell', '--set', 'rsm_size=64', '--size', '4x4', '--spp', 1, *words(names), '-o', folder)
@@ -95,4 +150,5 @@ def every_setting_of_every_study_is_taken(folder):
 
 if __name__ == '__main__':
     main([studies_are_measured_and_drawn, a_path_is_walked_where_something_moves, studies_of_shards_join,
+          incremental_and_anew_are_tables_of_all_scenes, counters_and_errors_are_noted_along_a_path,
           every_setting_of_every_study_is_taken])
