@@ -157,13 +157,14 @@ void study_tables_html(FILE *f, const cJSON *doc)
           "<h3>Table 1: incremental against anew</h3>\n"
           "<p class=\"quiet\">256 VPLs, 4 to 8 of them new a frame, while light and camera move. "
           "Medians, in ms. Common: table 2. Maps: shadow maps of VPLs. CPU: VPL management, on a "
-          "thread of its own. Speedup of indirect light: of frames without direct light, as in the "
+          "thread of its own. Speedup (&times;) of indirect light: of frames without direct light, "
+          "as in the "
           "paper.</p>\n",
           f);
     write_table(f, doc,
                 "<th>direct</th><th>G-buffer</th><th>common</th><th>maps</th><th>anew</th>"
                 "<th>CPU</th><th>frame</th><th>anew</th><th>fps</th><th>anew</th>"
-                "<th>indirect</th><th>frame, times</th>",
+                "<th>&times; indirect</th><th>&times; frame</th>",
                 write_row_1);
     fputs("<h3>Table 2: common steps</h3>\n<p class=\"quiet\">Medians, in ms.</p>\n", f);
     write_table(f, doc,

@@ -11,8 +11,9 @@ typedef struct walk {
     renderer *r;
     int frames, compared;
     timing timings[STUDY_POINTS];
-    cJSON *paths[STUDY_POINTS];  // "path" of the points' records
-    cJSON *errors[STUDY_POINTS]; // "errors" of them
+    cJSON *paths[STUDY_POINTS];   // "path" of the points' records
+    cJSON *errors[STUDY_POINTS];  // "errors" of them
+    cJSON *records[STUDY_POINTS]; // in the order of the points, whichever is done first
 } walk;
 
 // ---- where -----------------------------------------------------------------------------------
@@ -226,7 +227,7 @@ static void complete(walk *w, int k)
     cJSON_AddItemToObject(record, "path", w->paths[k]);
     cJSON_AddItemToObject(record, "errors", w->errors[k]);
     w->paths[k] = w->errors[k] = NULL;
-    study_take_point(w->c, k, record);
+    w->records[k] = record;
 }
 
 // Setting by setting within each visit, so that a slow minute of the machine falls on all. Slow
@@ -245,6 +246,10 @@ static fg_status all_times(walk *w)
             if (status == FG_OK && last)
                 complete(w, k);
         }
+    for (int k = 0; k < w->c->count && status == FG_OK; ++k) {
+        study_take_point(w->c, k, w->records[k]);
+        w->records[k] = NULL;
+    }
     cli_progress("study path", 1);
     return status;
 }
@@ -298,6 +303,7 @@ fg_status study_walk(course *c)
     for (int k = 0; k < c->count; ++k) {
         cJSON_Delete(w->paths[k]);
         cJSON_Delete(w->errors[k]);
+        cJSON_Delete(w->records[k]);
         timing_finish(&w->timings[k]);
     }
     renderer_destroy(w->r);
