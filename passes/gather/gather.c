@@ -133,6 +133,8 @@ static fg_status run_gather(const fg_run *run, void *user)
     fg_gl_image(run, 0, pass->out, 0, GL_READ_WRITE, FG_RGBA32F);
     if (pass->clamp == AG_CLAMP_CONSTANT)
         glProgramUniform1f(program, 0, pass->bound);
+    else if (pass->clamp == AG_CLAMP_FOOTPRINT)
+        glProgramUniform1i(program, 0, pass->on_surface);
     else if (is_bounded(pass))
         glProgramUniform2f(program, 0, pass->bound, pass->clamp == AG_CLAMP_GEOMETRY ? 1 : 0);
     if (pass->multires)
@@ -205,6 +207,7 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
         .capacity = vpls->capacity,
         .clamp = desc->clamp,
         .bound = bound_of(desc),
+        .on_surface = desc->on_surface,
         .block = desc->block,
         .visibility = desc->visibility,
         .multires = desc->multires,

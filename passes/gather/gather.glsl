@@ -50,6 +50,8 @@ layout(std430, binding = 1) readonly buffer count_buffer
 };
 #if CLAMP == 2
 layout(location = 0) uniform float clamp_d2; // m^2
+#elif CLAMP == 3
+layout(location = 0) uniform int on_surface;
 #elif CLAMP == 4
 layout(location = 0) uniform vec2 bound; // x: of a VPL's irradiance, W/m^2; with y 1 over its flux, 1/m^2
 #endif
@@ -85,7 +87,11 @@ void add_near(int j, int i, float unit)
     vec3 d = vpls[j].position_area.xyz * unit - p * unit;
     float area = vpls[j].position_area.w * unit * unit;
     n /= max(length(n), 1e-6);
-    float share = patch_share(d, n, vpls[j], area, max(-dot(vpls[j].normal.xyz, d), 0.0));
+    float cos_j = max(-dot(vpls[j].normal.xyz, d), 0.0); // times |d|
+    float share = patch_share(d, n, vpls[j], area, cos_j, on_surface != 0 ? 0.0 : texel_lift);
+    // A patch reaches through a wall that its VPL stands before; the wall's other side sees no VPL.
+    if (on_surface != 0 && dot(n, d) <= 0.0)
+        share = 0.0;
 #ifdef VISIBILITY
     share *= vpl_visibility(vpl_open(j, int(count.x)), p * unit, n);
 #endif

@@ -57,13 +57,16 @@ float patch_form_factor(vec3 d, vec3 n, ag_vpl v, float edge)
     return abs(sum) / (2.0 * near_pi);
 }
 
+// Where surfaces meet, a texel of a reflective shadow map that sees both is given to one, and the
+// other ends up to a texel short of the corner. Half a texel above the patch's plane that hardly
+// shows.
+const float texel_lift = 0.5;
+
 // Irradiance of the element over the flux of a near VPL, 1 over the square of d's unit. `area`: A_j
-// in it; `cos_j`: times |d|.
-float patch_share(vec3 d, vec3 n, ag_vpl v, float area, float cos_j)
+// in it; `cos_j`: times |d|; `lift`: what the element is held off the patch's plane, in its edges.
+float patch_share(vec3 d, vec3 n, ag_vpl v, float area, float cos_j, float lift)
 {
-    // Where surfaces meet, a texel that sees both is given to one, and the other ends up to a
-    // texel short of the corner. Half a texel above the patch's plane that hardly shows.
     float edge = sqrt(area);
-    d -= v.normal.xyz * max(0.5 * edge - cos_j, 0.0);
+    d -= v.normal.xyz * max(lift * edge - cos_j, 0.0);
     return patch_form_factor(d, n, v, edge) / area;
 }

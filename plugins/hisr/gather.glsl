@@ -187,7 +187,8 @@ void add_near(int first, float unit)
         fetch(first + findLSB(mask), unit, place, p, normal);
         float area = vpl.position_area.w * unit * unit;
         vec3 d = vpl.position_area.xyz * unit - p;
-        float share = patch_share(d, normal, vpl, area, max(-dot(vpl.normal.xyz, d), 0.0));
+        float cos_j = max(-dot(vpl.normal.xyz, d), 0.0); // times |d|
+        float share = patch_share(d, normal, vpl, area, cos_j, texel_lift);
 #ifdef VISIBILITY
         share *= ism_visibility(near_maps[k - 1], p, normal);
 #endif

@@ -311,6 +311,7 @@ static void iir_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
         .clamp = clamps[v[CLAMP].i],
         .clamp_e = (float) v[CLAMP_E].f,
         .clamp_g = (float) v[CLAMP_G].f,
+        .on_surface = true,
         .split = &s->split,
         .paraboloid = s->maps ? &s->shadow : NULL,
     };

@@ -45,6 +45,7 @@ typedef struct ag_gather_pass {
     float bound;  // clamp_d2, clamp_e or clamp_g
     int block;    // receivers of one invocation: 1, 4 or 16
     int capacity; // of `vpls`
+    bool on_surface;
     const ag_ism_pass *visibility;
     const ag_multires_pass *multires;
     const ag_paraboloid_pass *paraboloid;
@@ -57,6 +58,8 @@ typedef struct ag_gather_desc {
     float clamp_d2;                // m^2, > 0; CONSTANT only
     float clamp_e;                 // W/m^2, > 0; IRRADIANCE only
     float clamp_g;                 // 1/m^2, > 0; GEOMETRY only
+    bool on_surface;               // VPLs are not texels of a map, which belong to two surfaces
+                                   // where these meet: FOOTPRINT takes their planes as they are
     int block;                     // 1, 4 or 16; 0: what suits the device (16 on a CPU, else 4)
     const ag_ism_pass *visibility; // maps of these VPLs, declared before; borrowed while the graph
                                    // runs. NULL: nothing shadows them
