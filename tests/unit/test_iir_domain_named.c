@@ -199,6 +199,27 @@ static void a_point_in_a_ring_has_a_polygon(void **state)
         }
 }
 
+// Three points have their corner on the rim, within rounding of it on either side: the cell of the
+// middle one has an arc of no length there, or of less.
+static void a_corner_on_the_rim_costs_nothing(void **state)
+{
+    (void) state;
+    for (int i = 0; i < 1000; ++i) {
+        double p[3][3] = { { 0 } }, sum = 0;
+        const double turn = 0.01 * i, radius = 0.3 + 4e-4 * i;
+        for (int k = 0; k < 3; ++k) {
+            const double angle = turn + M_PI + 0.7 * (k - 1);
+            p[k][0] = cos(turn) + radius * cos(angle);
+            p[k][1] = sin(turn) + radius * sin(angle);
+        }
+        iir_domain_destroy(domain_with(POINTS_DISC, p, 3));
+        for (int k = 0; k < 3; ++k)
+            sum += areas[k];
+        near_by(sum, M_PI, rounding);
+        near_by(areas[0], areas[2], rounding);
+    }
+}
+
 // ---- the largest empty circle of the disc ----------------------------------------------------
 
 static void case_1_is_a_corner(void **state)
@@ -422,6 +443,7 @@ int main(void)
         cmocka_unit_test(a_great_circle_is_cut_into_lunes),
         cmocka_unit_test(solids_are_cut_into_equal_parts),
         cmocka_unit_test(a_point_in_a_ring_has_a_polygon),
+        cmocka_unit_test(a_corner_on_the_rim_costs_nothing),
         cmocka_unit_test(case_1_is_a_corner),
         cmocka_unit_test(case_2_is_where_an_edge_meets_the_rim),
         cmocka_unit_test(case_2_has_finite_edges_too),

@@ -31,6 +31,8 @@ FG_BEGIN
 //
 // Source: Laine, Saransaari, Kontkanen, Lehtinen, Aila. Incremental Instant Radiosity for
 //         Real-Time Indirect Illumination. EGSR 2007, sec. 4.1 to 4.7.
+//         Departs from sec. 4.6: on the disc finite Voronoi edges meet the rim too; on the sphere,
+//         if all points are in one hemisphere, the centre may be on an edge instead of a corner.
 // Thread: one at a time on a domain; different domains on any.
 #define IIR_DUPLICATE 0x1p-16
 

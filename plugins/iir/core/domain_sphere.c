@@ -93,8 +93,8 @@ static bisector bisector_of(const double *p, const double *q)
         perpendicular(u, b.middle);
     normalize(b.middle);
     cross(b.middle, u, b.way); // to the left as one goes from p to q
-    // Points are unit to rounding only, which at their least distance moves the plane a little off
-    // the middle. Taking that into account keeps the areas' sum.
+    // Points are unit to rounding only, so the plane is a little nearer to one of them: 1e-11 at
+    // their least distance, which is 1e-6 of it.
     b.tangents[0] = 0.5 * (length - off) / (1 + fmax(0, dot(p, b.middle)));
     b.tangents[1] = 0.5 * (length + off) / (1 + fmax(0, dot(q, b.middle)));
     return b;
