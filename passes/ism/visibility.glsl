@@ -36,6 +36,7 @@ ism_map ism_open(int layer)
 // the eye by up to 45 degrees, does not hide it there. A disc stands out past an edge, and over a
 // curved surface, by its radius at most.
 const float ism_bias = 1.5;
+const float ism_plane_range = 2.0;
 
 // How much of a VPL's light arrives at `position` on a surface of unit `normal`, 0 .. 1.
 float ism_visibility(ism_map m, vec3 position, vec3 normal)
@@ -44,7 +45,7 @@ float ism_visibility(ism_map m, vec3 position, vec3 normal)
                                         m.size);
     vec4 nearest = textureGather(ism_maps, vec3((h.low + 1.0) * m.texel, m.layer));
     float angle = hemisphere_texel_angle(h, m.size);
-    return hemisphere_lit(h, nearest, max(ism_bias * angle, m.disc / h.r));
+    return hemisphere_lit(h, nearest, max(ism_bias * angle, m.disc / h.r), ism_plane_range);
 }
 
 float ism_visibility(int map, vec3 position, vec3 normal)

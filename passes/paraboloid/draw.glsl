@@ -9,17 +9,17 @@
 //         Casting. GI 2012.
 //
 // Buffers are read as textures: where a CPU renders, that costs a quarter of a storage block's loads.
+#include "passes/include/pass/paraboloid_shared.h"
 #include "passes/paraboloid/draw_shared.h"
 
 layout(binding = 0) uniform samplerBuffer triangle_texels; // shadow_triangle[]
 layout(binding = 1) uniform samplerBuffer eye_texels;      // shadow_eye[]
 
 // An eye that is nearer to a triangle's plane than this does not know by its numbers on which side it
-// is. Places are known to some 2^-24.
+// is: places are known to some 2^-24. The triangle is taken to be so far behind its front, and larger
+// by twice that all around: in a corner, of two walls that both recede, nothing is seen in between.
 const float near_plane = 1.0 / 1048576.0;
-// Texels beyond the horizon have what is so far inside of it, in (x, y) / (1 + z), that nothing which
-// lies on the eye's own plane rises to it. They reach as far out as lookups do, in texels.
-const float horizon = 1.0 - 1.0 / 4096.0;
+// Lookups reach so many texels beyond the horizon.
 const float reach = 1.5;
 // Half floats end at 65504.
 const float most = 65504.0;
@@ -39,7 +39,8 @@ shadow_eye fetch_eye(int i)
 // Corners in the frame of the eye, and the sense in which they go round.
 struct seen {
     vec3 a, b, c;
-    float turn; // 1: counter-clockwise from the eye; -1
+    float turn;  // 1: counter-clockwise from the eye; -1
+    vec3 margin; // what it is larger by; 0 where the eye is far from its plane
 };
 
 vec3 turned(vec3 p, shadow_eye e, vec3 bitangent)
@@ -61,8 +62,10 @@ seen see(shadow_triangle t, shadow_eye e)
     float wanted = is_near ? side * near_plane * sqrt(n2) : height;
     precise vec3 shift = is_near ? n * ((height - wanted) / n2) : vec3(0.0);
     vec3 bitangent = cross(e.normal.xyz, e.tangent.xyz);
+    vec3 margin = is_near ? n * (4.0 * near_plane * inversesqrt(n2)) : vec3(0.0);
     return seen(turned(a + shift, e, bitangent), turned(b + shift, e, bitangent),
-                turned(c + shift, e, bitangent), wanted < 0.0 ? 1.0 : -1.0);
+                turned(c + shift, e, bitangent), wanted < 0.0 ? 1.0 : -1.0,
+                turned(margin, e, bitangent));
 }
 
 // Normals of the planes through the eye and the edges opposite of a, b, c; inside is above 0.
@@ -70,18 +73,21 @@ struct edges {
     vec3 a, b, c;
 };
 
-vec3 edge(vec3 p, vec3 q)
+vec3 edge(vec3 p, vec3 q, vec3 margin)
 {
     precise vec3 sum = p + q, difference = q - p;
     precise vec3 n = vec3(sum.y * difference.z - sum.z * difference.y,
                           sum.z * difference.x - sum.x * difference.z,
                           sum.x * difference.y - sum.y * difference.x);
+    // To the edge's distance at the point met, d: n.ray = 2 |q - p| d h / t, h / t = |normal.ray|.
+    n += margin * length(difference);
     return n;
 }
 
 edges edges_of(seen s)
 {
-    return edges(s.turn * edge(s.b, s.c), s.turn * edge(s.c, s.a), s.turn * edge(s.a, s.b));
+    return edges(s.turn * edge(s.b, s.c, s.margin), s.turn * edge(s.c, s.a, s.margin),
+                 s.turn * edge(s.a, s.b, s.margin));
 }
 
 // The ray of a texel, of length 1 + s, w. That is 0 where no lookup comes.
@@ -89,7 +95,7 @@ vec4 ray_of(ivec2 texel, float size)
 {
     vec2 u = (vec2(texel) + 0.5) * (2.0 / size) - 1.0;
     float s = dot(u, u), rim = 1.0 + reach * 2.0 / size;
-    u *= min(horizon * inversesqrt(max(s, 0.25)), 1.0);
+    u *= min(paraboloid_horizon * inversesqrt(max(s, 0.25)), 1.0);
     float t = dot(u, u);
     return vec4(2.0 * u, 1.0 - t, s > rim * rim ? 0.0 : 1.0 + t);
 }

@@ -112,7 +112,7 @@ static bool create_buffers(ag_paraboloid_maps *m, const paraboloid_triangles *t)
         [PARABOLOID_ALPHAS] = { (t->alpha_count + 3) / 4 * 4, t->alphas },
         [PARABOLOID_LISTS] = { PARABOLOID_CLASSES * list * 4 * sizeof(uint32_t), NULL },
         [PARABOLOID_COUNTS] = { 4 * sizeof(uint32_t), NULL },
-        [PARABOLOID_GROUPS] = { PARABOLOID_CLASSES * 4 * sizeof(uint32_t), NULL },
+        [PARABOLOID_GROUPS] = { sizeof(uint32_t[PARABOLOID_CLASSES][4]), NULL },
         [PARABOLOID_DRAWN] = { capacity * sizeof *m->fresh, NULL },
         [PARABOLOID_SCRATCH] = { texels * sizeof(uint32_t), NULL },
         [PARABOLOID_EYES] = { HEADER + capacity * sizeof *m->eyes, NULL },
@@ -235,10 +235,11 @@ void ag_paraboloid_destroy(ag_paraboloid_maps *m)
 // First column, first row and layer of a slot.
 static void place_of(const ag_paraboloid_maps *m, int slot, float place[3])
 {
-    const int in_layer = slot % (m->edge * m->edge);
-    place[0] = (float) (in_layer % m->edge * m->size);
-    place[1] = (float) (in_layer / m->edge * m->size);
-    place[2] = (float) (slot / (m->edge * m->edge));
+    const int in_layer = slot % (m->edge * m->edge), layer = slot / (m->edge * m->edge);
+    const int column = in_layer % m->edge, row = in_layer / m->edge;
+    place[0] = (float) (column * m->size);
+    place[1] = (float) (row * m->size);
+    place[2] = (float) layer;
 }
 
 static void take(paraboloid_slot *slot, const ag_paraboloid_eye *eye)

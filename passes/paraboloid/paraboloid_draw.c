@@ -80,7 +80,7 @@ static void draw_listed(const ag_paraboloid_maps *m, const programs *p, const ba
         const uint32_t program = large ? p->large[masked] : p->medium[masked];
         use(m, program, b, masked);
         glProgramUniform2i(program, 2, i, i * m->list);
-        glDispatchComputeIndirect(i * 16);
+        glDispatchComputeIndirect((GLintptr) i * 16);
     }
 }
 

@@ -40,21 +40,26 @@ static double unit_of(const double low[3], const double high[3])
     return ldexp(1, -exponent);
 }
 
+static void grow_box(const ag_scene *scene, const ag_instance *instance, double low[3],
+                     double high[3])
+{
+    const ag_primitive *p = primitive_of(scene, instance);
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        double at[3];
+        world_place(scene, instance, &scene->vertices[p->first_vertex + v], at);
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], at[k]);
+            high[k] = fmax(high[k], at[k]);
+        }
+    }
+}
+
 static void find_box(paraboloid_triangles *t, const ag_scene *scene)
 {
     double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
-    for (int i = 0; i < scene->instance_count; i++) {
-        const ag_instance *instance = &scene->instances[i];
-        const ag_primitive *p = primitive_of(scene, instance);
-        for (uint32_t v = 0; v < p->vertex_count && !instance->moving; v++) {
-            double at[3];
-            world_place(scene, instance, &scene->vertices[p->first_vertex + v], at);
-            for (int k = 0; k < 3; k++) {
-                low[k] = fmin(low[k], at[k]);
-                high[k] = fmax(high[k], at[k]);
-            }
-        }
-    }
+    for (int i = 0; i < scene->instance_count; i++)
+        if (!scene->instances[i].moving)
+            grow_box(scene, &scene->instances[i], low, high);
     for (int k = 0; k < 3; k++) {
         if (!(low[k] <= high[k]))
             low[k] = high[k] = 0;

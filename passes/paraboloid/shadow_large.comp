@@ -16,7 +16,8 @@ layout(std430, binding = 1) readonly buffer count_buffer
 layout(location = 2) uniform ivec2 from; // x: which list; y: where it begins
 
 // What of a row, x in [-1, 1] at y, may be on the inner side of plane `n`: a parabola's sign. Where that
-// is two pieces, and both are within `span`, it is left as it is.
+// is two pieces, and both are within `span`, it is left as it is; so it is where the row hardly crosses
+// the plane, and rounding says where.
 void narrow(vec3 n, float y, inout vec2 span)
 {
     float c = 2.0 * n.y * y + n.z * (1.0 - y * y);
@@ -25,10 +26,12 @@ void narrow(vec3 n, float y, inout vec2 span)
     vec2 ends = clamp(vec2(q, -c) / vec2(abs(n.z) > 1e-30 ? n.z : 1e-30,
                                          abs(q) > 1e-30 ? q : 1e-30), -4.0, 4.0);
     float low = min(ends.x, ends.y), high = max(ends.x, ends.y);
-    bool between = n.z >= 0.0, cuts = d > 0.0;
-    span = between ? (cuts ? vec2(max(span.x, low), min(span.y, high)) : vec2(2.0, -2.0)) : span;
-    span.x = !between && cuts && low < span.x ? max(span.x, high) : span.x;
-    span.y = !between && cuts && high > span.y ? min(span.y, low) : span.y;
+    float largest = max(max(abs(n.x), abs(n.y)), abs(n.z));
+    bool between = n.z >= 0.0, cuts = d > 0.0, sure = abs(q) > 1e-3 * largest;
+    vec2 found = between ? (cuts ? vec2(max(span.x, low), min(span.y, high)) : vec2(2.0, -2.0)) : span;
+    found.x = !between && cuts && low < found.x ? max(found.x, high) : found.x;
+    found.y = !between && cuts && high > found.y ? min(found.y, low) : found.y;
+    span = sure ? found : span;
 }
 
 float half_chord(float radius, float y)
@@ -41,7 +44,7 @@ float half_chord(float radius, float y)
 ivec4 columns(edges n, int row, inout ivec2 ends)
 {
     float size = float(frame.x), y = (float(row) + 0.5) * (2.0 / size) - 1.0;
-    float chord = half_chord(horizon, y), outmost = half_chord(1.0 + reach * 2.0 / size, y);
+    float chord = half_chord(paraboloid_horizon, y), outmost = half_chord(1.0 + reach * 2.0 / size, y);
     vec2 span = (vec2(ends) + vec2(0.5, -0.5)) * (2.0 / size) - 1.0;
     span = vec2(max(span.x, -chord), min(span.y, chord));
     narrow(n.a, y, span);
@@ -50,8 +53,8 @@ ivec4 columns(edges n, int row, inout ivec2 ends)
     span = clamp(span, -2.0, 2.0);
     vec4 at = (0.5 + 0.5 * vec4(span, -chord, chord)) * size - 0.5;
     vec2 most_ends = (0.5 + 0.5 * vec2(-outmost, outmost)) * size - 0.5;
-    ends = ivec2(max(ends.x, int(ceil(most_ends.x - 0.02))), min(ends.y, int(floor(most_ends.y + 1.02))));
-    return ivec4(ceil(at.x - 0.02), floor(at.yz + 0.02), ceil(at.w - 0.02));
+    ends = ivec2(max(ends.x, int(ceil(most_ends.x - 0.15))), min(ends.y, int(floor(most_ends.y + 1.15))));
+    return ivec4(ceil(at.x - 0.15), floor(at.yz + 0.15), ceil(at.w - 0.15));
 }
 
 // The first column from x on that is to be looked at.

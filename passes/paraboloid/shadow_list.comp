@@ -44,7 +44,7 @@ ivec4 bounds(seen s)
 {
     float size = float(frame.x);
     vec3 far = vec3(length(s.a), length(s.b), length(s.c));
-    bool unsure = min(min(far.x, far.y), far.z) < no_direction;
+    bool unsure = min(min(far.x, far.y), far.z) < no_direction || dot(s.margin, s.margin) > 0.0;
     vec4 box = vec4(2.0, 2.0, -2.0, -2.0);
     add(box, s.a.xy / max(far.x + s.a.z, 1e-37), s.a.z >= 0.0);
     add(box, s.b.xy / max(far.y + s.b.z, 1e-37), s.b.z >= 0.0);

@@ -28,10 +28,15 @@ paraboloid_map paraboloid_open(int j)
                           1.0 / float(textureSize(paraboloid_maps, 0).x), e.position.w * view.scale.y);
 }
 
-// A texel hides the receiver by more than so many texels' angle, and by more than the rounding of the
-// maps' half floats, 2^-11, and of what the eye and the receiver are known to.
+// A texel hides the receiver by more than so many texels' angle: surfaces are exact, but normals are
+// smoothed, and beside an edge texels see the other wall. Against rays none is better: with less, edges
+// lose light, with more, what stands on a surface does not shadow it at its foot. Half floats may be
+// cut, by 2^-10, and places are known to less.
 const float paraboloid_bias = 0.5;
 const float paraboloid_rounding = 0.002;
+// 1.41 of the widest texels of 256 across are an angle of 0.022: planes do not hide themselves down to
+// a seventh of that, 0.2 degrees.
+const float paraboloid_plane_range = 8.0;
 
 // How much of a VPL's light arrives at `position` on a surface of unit `normal`, 0 .. 1, filtered over
 // 2x2 texels.
@@ -41,10 +46,9 @@ float paraboloid_visibility(paraboloid_map m, vec3 position, vec3 normal)
                                         m.size);
     vec4 nearest =
         m.unit * textureGather(paraboloid_maps, vec3((m.place.xy + h.low + 1.0) * m.texel, m.place.z));
-    // Texels beyond the horizon have what is on it.
-    vec4 inside = inversesqrt(max(h.u * h.u + h.v * h.v, 1.0));
+    vec4 inside = min(paraboloid_horizon * inversesqrt(max(h.u * h.u + h.v * h.v, 0.25)), 1.0);
     h.u *= inside;
     h.v *= inside;
     float angle = hemisphere_texel_angle(h, m.size);
-    return hemisphere_lit(h, nearest, max(paraboloid_bias * angle, paraboloid_rounding));
+    return hemisphere_lit(h, nearest, max(paraboloid_bias * angle, paraboloid_rounding), paraboloid_plane_range);
 }

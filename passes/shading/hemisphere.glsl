@@ -35,19 +35,16 @@ float hemisphere_texel_angle(hemisphere_view h, float size)
     return 2.0 * (1.0 / size) * (1.0 + h.p.z / h.r);
 }
 
-// The receiver's plane goes through the eye where it is seen from its edge; it counts within this
-// ratio.
-const float hemisphere_plane_range = 2.0;
-
 // How much of the eye's light arrives, 0 .. 1. `nearest`: what the map has at the four texels. One
 // hides the receiver where something is nearer than the receiver itself and than its plane along the
-// texel's ray, so that no plane hides itself, by more than `slack` of the distance.
-float hemisphere_lit(hemisphere_view h, vec4 nearest, float slack)
+// texel's ray, so that no plane hides itself, by more than `slack` of the distance. The receiver's plane
+// goes through the eye where it is seen from its edge; it counts within the ratio `range`.
+float hemisphere_lit(hemisphere_view h, vec4 nearest, float slack, float range)
 {
     vec4 s = h.u * h.u + h.v * h.v; // paraboloid_ray() of the four, without the length 1 + s
     vec4 plane = (2.0 * (h.n.x * h.u + h.n.y * h.v) + h.n.z * (1.0 - s)) / (1.0 + s);
     float height = -dot(h.n, h.p); // the receiver sees the eye: not below 0
-    plane = clamp(plane * (-1.0 / max(height, 1e-6 * h.r)), 1.0 / h.r, hemisphere_plane_range / h.r);
+    plane = clamp(plane * (-1.0 / max(height, 1e-6 * h.r)), 1.0 / h.r, range / h.r);
     vec4 lit = vec4(lessThanEqual(nearest, plane * (1.0 + slack)));
     vec2 row = mix(lit.wx, lit.zy, h.part.x);
     return mix(row.x, row.y, h.part.y);

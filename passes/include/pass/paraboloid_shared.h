@@ -18,4 +18,10 @@ struct ag_paraboloid_eye_block {
     ag_vec4 normal;    // xyz: unit; w: its layer
 };
 
+#ifdef GL_core_profile
+// Texels whose middle is beyond this, in (x, y) / (1 + z), have what is there beside it: so far
+// inside of the horizon that nothing which lies on the eye's own plane rises to it.
+const float paraboloid_horizon = 1.0 - 1.0 / 4096.0;
+#endif
+
 #endif // PASS_PARABOLOID_SHARED_H
