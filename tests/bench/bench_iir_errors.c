@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-// The reference takes minutes for more: pixels along an edge, samples of a pixel. What the tiles make
-// depends on the size: the fewer pixels a surface has, the more of it lies at an edge.
+// The reference takes minutes for more: pixels along an edge, samples of a pixel. What the tiles
+// make depends on the size: the fewer pixels a surface has, the more of it lies at an edge.
 enum { EDGE = 512, SPP = 128 };
 
 static const int counts[] = { 64, 256, 1024, 4096 };
