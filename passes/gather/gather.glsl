@@ -159,6 +159,8 @@ void main()
             vec3 flux = vpls[j].flux.rgb;
             float area = vpls[j].position_area.w * unit * unit;
 #if CLAMP == 3
+            // Beside its own surface a disc is too dark: what is not near is a point.
+            float spread_area = on_surface != 0 ? 0.0 : area;
             bool any_near = false;
 #elif CLAMP == 4
             float per = bound.y > 0.5 ? 1.0 : max(max(flux.r, flux.g), max(flux.b, 1e-30));
@@ -176,6 +178,8 @@ void main()
                 float spread = pi * d2;
 #elif CLAMP == 2
                 float spread = max(pi * d2, least);
+#elif CLAMP == 3
+                float spread = pi * d2 + spread_area;
 #else
                 float spread = pi * d2 + area;
 #endif

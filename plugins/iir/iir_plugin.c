@@ -2,6 +2,7 @@
 #include "domain_layer.h"
 
 #include <gi/plugin.h>
+#include <pass/compensate.h>
 #include <pass/gather.h>
 #include <pass/interleave.h>
 #include <pass/paraboloid.h>
@@ -42,6 +43,7 @@ enum {
     CLAMP,
     CLAMP_E,
     CLAMP_G,
+    COMPENSATE,
     METRIC,
     ALPHA,
     BETA,
@@ -85,8 +87,11 @@ static const gi_param params[] = {
                 "the paper's most irradiance; the most of cosines / (pi d^2)" },
     [CLAMP_E] = { .name = "clamp_e", .type = GI_FLOAT, .unit = "W/m^2", .min = 1e-12, .max = 1e12,
         .def = 1, .help = "most irradiance of one VPL, with clamp=irradiance" },
-    [CLAMP_G] = { .name = "clamp_g", .type = GI_FLOAT, .unit = "1/m^2", .min = 1e-12, .max = 1e12,
-        .def = 1, .help = "most of cosines / (pi d^2), with clamp=geometry" },
+    [CLAMP_G] = { .name = "clamp_g", .type = GI_FLOAT, .unit = "1/m^2", .min = 0, .max = 1e12,
+        .help = "most of cosines / (pi d^2), with clamp=geometry; 0: by the area of the VPLs" },
+    [COMPENSATE] = { .name = "compensate", .type = GI_INT, .unit = "1", .min = 0, .max = 256,
+        .def = 32, .help = "samples a pixel that give back, from the picture, what clamp=geometry "
+                           "takes away; 0: none" },
     [METRIC] = { .name = "metric", .type = GI_ENUM, .unit = "1", .choices = metric_names,
         .help = "what alpha bounds: how far off a pixel's plane another is, over the distance to "
                 "the eye; or the distance of the two, m, as in the paper" },
@@ -114,6 +119,7 @@ typedef struct iir {
     iir_result stats;         // of this frame; its list is of the worker's step
     ag_vpl *list;             // [max_lights], what the next frame uploads
     ag_paraboloid_eye *eyes;  // likewise
+    float clamp_g;            // of this frame
     int width, height;
 
     ag_split_pass split;
@@ -121,6 +127,7 @@ typedef struct iir {
     ag_vpl_pass vpl; // buffers that this plugin fills itself
     ag_gather_pass gather;
     ag_combine_pass combine;
+    ag_compensate_pass compensate;
     ag_box_filter_pass filter;
     ag_vpl_dots_pass dots;
     ag_tone_pass unfiltered;
@@ -235,6 +242,25 @@ static void list_vpls(iir *s, const ag_view *view)
     }
 }
 
+// A bound of 1 / A_j takes from a VPL only what it has too much within its own patch, as a disc
+// form factor would; an eighth of that leaves nothing of its spot, and what it takes comes from no
+// farther than 1.6 edges of a patch, which the picture mostly shows.
+static float geometry_bound(const iir *s)
+{
+    const double own = s->values[CLAMP_G].f;
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < s->stats.count; i++) {
+        const double area = (double) s->stats.vpls[i].area;
+        if (area > 0) {
+            sum += log(area);
+            count++;
+        }
+    }
+    const double bound = own > 0 ? own : count > 0 ? 0.125 / exp(sum / count) : 1;
+    return (float) fmin(fmax(bound, 1e-12), 1e12);
+}
+
 static fg_status iir_update(void *self, const gi_frame *frame)
 {
     iir *s = self;
@@ -249,6 +275,9 @@ static fg_status iir_update(void *self, const gi_frame *frame)
     s->stats = *result;
     list_vpls(s, frame->view);
     iir_domain_layer_set(&s->domain, result);
+    s->clamp_g = geometry_bound(s);
+    if (clamps[s->values[CLAMP].i] == AG_CLAMP_GEOMETRY)
+        s->gather.bound = s->compensate.bound = s->clamp_g;
     if (s->maps)
         ag_paraboloid_set(s->maps, s->eyes, s->stats.count, frame->view);
     return FG_OK;
@@ -301,6 +330,26 @@ static void declare_layers(iir *s, fg_graph *g, const gi_inputs *in, gi_outputs 
     out->layers[UNFILTERED_LAYER] = s->unfiltered.out;
 }
 
+// The combined light and what its bound has taken away.
+static fg_res declare_compensation(iir *s, fg_graph *g, const gi_inputs *in)
+{
+    const gi_value *v = s->values;
+    if (clamps[v[CLAMP].i] != AG_CLAMP_GEOMETRY || v[COMPENSATE].i == 0)
+        return s->combine.out;
+    const ag_compensate_desc desc = {
+        .prefix = "iir",
+        .in = s->combine.out,
+        .direct = in->direct,
+        .bound = s->clamp_g,
+        .tiles = (int) v[TILES].i,
+        .samples = (int) v[COMPENSATE].i,
+        .width = in->width,
+        .height = in->height,
+    };
+    ag_compensate_declare(&s->compensate, g, &in->scene, &in->gbuffer, &desc);
+    return s->compensate.out;
+}
+
 static void iir_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
 {
     iir *s = self;
@@ -310,7 +359,7 @@ static void iir_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
         .prefix = "iir",
         .clamp = clamps[v[CLAMP].i],
         .clamp_e = (float) v[CLAMP_E].f,
-        .clamp_g = (float) v[CLAMP_G].f,
+        .clamp_g = s->clamp_g,
         .on_surface = true,
         .split = &s->split,
         .paraboloid = s->maps ? &s->shadow : NULL,
@@ -325,7 +374,7 @@ static void iir_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
         ag_paraboloid_declare(&s->shadow, g, s->maps, "iir");
     ag_gather_declare(&s->gather, g, &in->scene, &in->gbuffer, &s->vpl, &gather);
     ag_combine_declare(&s->combine, g, &s->split, s->gather.out);
-    ag_box_filter_declare(&s->filter, g, &s->split, s->combine.out, &filter);
+    ag_box_filter_declare(&s->filter, g, &s->split, declare_compensation(s, g, in), &filter);
     declare_layers(s, g, in, out);
     out->indirect = s->filter.out;
 }

@@ -59,7 +59,8 @@ typedef struct ag_gather_desc {
     float clamp_e;                 // W/m^2, > 0; IRRADIANCE only
     float clamp_g;                 // 1/m^2, > 0; GEOMETRY only
     bool on_surface;               // VPLs are not texels of a map, which belong to two surfaces
-                                   // where these meet: FOOTPRINT takes their planes as they are
+                                   // where these meet: FOOTPRINT takes their planes as they are,
+                                   // and NONE from 2 sqrt(A_j) on
     int block;                     // 1, 4 or 16; 0: what suits the device (16 on a CPU, else 4)
     const ag_ism_pass *visibility; // maps of these VPLs, declared before; borrowed while the graph
                                    // runs. NULL: nothing shadows them
