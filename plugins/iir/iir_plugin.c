@@ -34,6 +34,7 @@ enum {
     DELAY,
     FIRST,
     SETTLE,
+    RIM,
     ESCAPE,
     BLUR,
     VISIBILITY,
@@ -69,6 +70,9 @@ static const gi_param params[] = {
     [SETTLE] = { .name = "settle", .type = GI_BOOL, .unit = "1", .def = 1,
         .help = "points stay where taking one away gains nothing; off: the paper's rule, which "
                 "never rests" },
+    [RIM] = { .name = "rim", .type = GI_FLOAT, .unit = "1", .min = 0, .max = 1, .def = 0.35,
+        .help = "how far within a spot's rim a new point is, over the radius of its empty circle; "
+                "the paper's is 0" },
     [ESCAPE] = { .name = "escape", .type = GI_ENUM, .unit = "1", .choices = escape_names,
         .help = "power that leaves the scene is lost, or goes to the VPLs as in the paper" },
     [BLUR] = { .name = "blur", .type = GI_INT, .unit = "texels", .min = 1, .max = 1024, .def = 16,
@@ -220,6 +224,7 @@ static iir_budget budget_of(const iir *s)
         .fill_first = v[FIRST].i == 0,
         .settle = v[SETTLE].i != 0,
         .rescale = v[ESCAPE].i != 0,
+        .rim = v[RIM].f,
         .deal = (iir_deal) v[DEAL].i,
         .tiles = (int) v[TILES].i,
     };

@@ -15,6 +15,7 @@ static inline iir_budget default_budget(int max_lights)
                          .recalc_max = 8,
                          .fill_first = true,
                          .settle = true,
+                         .rim = 0.35,
                          .tiles = 4 };
 }
 

@@ -378,6 +378,10 @@ static bool in_range(const iir_manager *m, const char *name, int value, int low,
 
 static bool checked(const iir_manager *m, const iir_budget *b)
 {
+    if (!(b->rim >= 0 && b->rim <= 1)) {
+        fg_logf(m->log, FG_LOG_ERROR, "iir: rim is %g, must be in [0, 1]", b->rim);
+        return false;
+    }
     return in_range(m, "max_lights", b->max_lights, 1, m->capacity) &&
            in_range(m, "recalc_min", b->recalc_min, 0, IIR_MAX_VPLS) &&
            in_range(m, "recalc_max", b->recalc_max, 0, IIR_MAX_VPLS) &&
@@ -398,7 +402,7 @@ static fg_status change_points(iir_manager *m, const iir_budget *budget, bool ag
     share_creation(m, creations);
     for (int i = 0; i < m->light_count && status == FG_OK; i++) {
         if (m->lights[i].allowed > 0)
-            status = iir_points_create(m, i);
+            status = iir_points_create(m, i, budget->rim);
         if (m->lights[i].lit && status == FG_OK)
             iir_points_measure(m, i);
     }

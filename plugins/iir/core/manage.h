@@ -47,6 +47,8 @@ typedef struct iir_budget {
     bool settle;     // of a light that has not moved leave a point where it is if what its removal
                      // opens would be the largest empty circle again; without it VPLs never rest
     bool rescale;    // the paper's: what leaves the scene is given to the VPLs
+    double rim; // how far within the disc's rim a new point is at least, over the radius of its
+                // empty circle, [0, 1]; the paper's is 0
     iir_deal deal;
     int tiles; // n: subsets for n x n pixels, [1, IIR_MAX_TILES]
 } iir_budget;

@@ -166,7 +166,16 @@ static int take_local(light_state *l)
 }
 
 // Sec. 4.6. Rays change nothing about the circles: they are cast together in the end.
-fg_status iir_points_create(iir_manager *m, int light)
+// A point on the rim is out of the cone with the next step of the light, and its circle lies half
+// beyond the rim: it stands for its cell better, and for longer, from within.
+static void draw_in(double at[3], double most)
+{
+    const double r = hypot(at[0], at[1]);
+    for (int k = 0; k < 2 && r > most; k++)
+        at[k] *= most / r;
+}
+
+fg_status iir_points_create(iir_manager *m, int light, double rim)
 {
     light_state *l = &m->lights[light];
     fg_status status = FG_OK;
@@ -175,7 +184,9 @@ fg_status iir_points_create(iir_manager *m, int light)
         const int id = take_id(m), local = take_local(l);
         point *p = &m->points[id];
         *p = (point){ .light = light, .local = local, .fresh = true, .birth = m->births++ };
-        iir_domain_largest_empty_circle(l->domain, p->at);
+        const double radius = iir_domain_largest_empty_circle(l->domain, p->at);
+        if (l->space == IIR_DISC)
+            draw_in(p->at, 1 - rim * radius);
         l->points[local] = id;
         m->ids[made] = id;
         status = iir_domain_insert(l->domain, local, p->at);

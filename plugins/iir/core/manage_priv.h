@@ -91,7 +91,7 @@ struct iir_manager {
 // Their places are known; the domain follows.
 fg_status iir_points_place(iir_manager *m, int light);
 fg_status iir_points_delete(iir_manager *m, int light, bool settle);
-fg_status iir_points_create(iir_manager *m, int light);
+fg_status iir_points_create(iir_manager *m, int light, double rim); // rim as of iir_budget
 void iir_points_measure(iir_manager *m, int light);
 void iir_point_free(iir_manager *m, int id); // the domain is the caller's business
 
