@@ -205,27 +205,31 @@ static const cJSON *trace_of(const cJSON *point, const study_panel *p)
     return cJSON_GetArrayItem(cJSON_GetObjectItem(path, "errors"), p->of);
 }
 
+static void write_trace(FILE *f, const cJSON *point, const study_panel *p)
+{
+    const double unit = p->of >= 0 ? 100 : 1;
+    const cJSON *path = cJSON_GetObjectItem(point, "path"), *value;
+    const cJSON *second = cJSON_GetArrayItem(cJSON_GetObjectItem(path, "seconds"), 0);
+    cJSON_ArrayForEach(value, trace_of(point, p))
+    {
+        if (second && cJSON_IsNumber(value)) {
+            write_number(f, second->valuedouble);
+            write_number(f, unit * value->valuedouble);
+            fputc('\n', f);
+        }
+        second = second ? second->next : NULL;
+    }
+}
+
 static void write_walk(FILE *f, const cJSON *points, const char *label, const study_panel *p,
                        int number)
 {
-    const double unit = p->of >= 0 ? 100 : 1;
-    const cJSON *point, *value;
+    const cJSON *point;
     fprintf(f, "$c%d << END_OF_DATA\n", number);
     cJSON_ArrayForEach(point, points)
     {
-        const cJSON *path = cJSON_GetObjectItem(point, "path");
-        const cJSON *second = cJSON_GetArrayItem(cJSON_GetObjectItem(path, "seconds"), 0);
-        if (!of_curve(point, label))
-            continue;
-        cJSON_ArrayForEach(value, trace_of(point, p))
-        {
-            if (second && cJSON_IsNumber(value)) {
-                write_number(f, second->valuedouble);
-                write_number(f, unit * value->valuedouble);
-                fputc('\n', f);
-            }
-            second = second ? second->next : NULL;
-        }
+        if (of_curve(point, label))
+            write_trace(f, point, p);
     }
     fprintf(f, "NaN NaN\nEND_OF_DATA\n");
 }

@@ -183,14 +183,12 @@ static bool parse(bench *b, int argc, char **argv)
             b->verbose = true;
         else if (!strcmp(argv[i], "--least"))
             samples_take_least();
-        else if (argv[i][0] == '-' && (i + 1 >= argc || !parse_value(b, argv[i], argv[i + 1])))
-            return false;
-        else if (argv[i][0] == '-')
+        else if (argv[i][0] == '-' && i + 1 < argc && parse_value(b, argv[i], argv[i + 1]))
             i++;
-        else if (b->name_count == MAX_NAMES)
-            return false;
-        else
+        else if (argv[i][0] != '-' && b->name_count < MAX_NAMES)
             b->names[b->name_count++] = argv[i];
+        else
+            return false;
     }
     for (int i = 0; b->wanted_scene && scene_names[i]; i++)
         if (!strcmp(b->wanted_scene, scene_names[i]))
