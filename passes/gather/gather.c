@@ -44,12 +44,12 @@ static uint32_t gather_program(fg_device *device, const ag_gather_pass *pass)
         desc.shaders[1] = &gather_frag;
         snprintf(defines, sizeof defines, "CLAMP=%d%s", clamps[pass->clamp], visibility);
     } else {
-        snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s%s", edge, edge,
+        snprintf(defines, sizeof defines, "BLOCK_X=%d;BLOCK_Y=%d;CLAMP=%d%s%s%s", edge, edge,
                  clamps[pass->clamp],
                  pass->multires ? ";LIST=1"
                  : pass->split  ? ";SPLIT=1"
                                 : "",
-                 visibility);
+                 pass->far_only ? ";FAR=1" : "", visibility);
     }
     return fg_gl_program(device, &desc);
 }
@@ -216,6 +216,7 @@ void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *sc
     };
     if (!check(pass, g, desc))
         return;
+    pass->far_only = desc->far_only && pass->split && pass->clamp == AG_CLAMP_FOOTPRINT;
     if (pass->split) {
         pass->position = pass->split->position;
         pass->normal = pass->split->normal;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Irradiance of receivers from all VPLs: gather.comp and gather.frag. BLOCK_X, BLOCK_Y: receivers of
-// one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint, 4 bounded. LIST, SPLIT: see
+// one invocation. FAR: near VPLs are left out. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint, 4 bounded. LIST, SPLIT: see
 // receivers.glsl. VISIBILITY: see visible.glsl.
 //
 // E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
@@ -64,7 +64,12 @@ layout(binding = 0, rgba32f) uniform image2D indirect;
 
 #if CLAMP == 3
 #include "passes/gather/near.glsl"
+#ifndef FAR
+#define NEAR 1
+#endif
+#endif
 
+#ifdef NEAR
 // Which of the invocation's receivers, at `p`, are near VPL j.
 uint receivers_near(int j, vec3 p[block], float unit)
 {
@@ -87,11 +92,8 @@ void add_near(int j, int i, float unit)
     vec3 d = vpls[j].position_area.xyz * unit - p * unit;
     float area = vpls[j].position_area.w * unit * unit;
     n /= max(length(n), 1e-6);
-    float cos_j = max(-dot(vpls[j].normal.xyz, d), 0.0); // times |d|
-    float share = patch_share(d, n, vpls[j], area, cos_j, on_surface != 0 ? 0.0 : texel_lift);
-    // A patch reaches through a wall that its VPL stands before; the wall's other side sees no VPL.
-    if (on_surface != 0 && dot(n, d) <= 0.0)
-        share = 0.0;
+    float share = on_surface != 0 ? patch_share_on_surface(d, n, vpls[j], area)
+                                  : patch_share(d, n, vpls[j], area, max(-dot(vpls[j].normal.xyz, d), 0.0), texel_lift);
 #ifdef VISIBILITY
     share *= vpl_visibility(vpl_open(j, int(count.x)), p * unit, n);
 #endif
@@ -137,7 +139,7 @@ void main()
         p[i] *= unit;
         n[i] /= max(length(n[i]), 1e-6);
         sum[i] = vec3(0.0);
-#if CLAMP == 3
+#ifdef NEAR
         if (span.x == 0 && is_there(i))
             imageStore(indirect, place_of(i), vec4(0.0));
 #endif
@@ -149,7 +151,7 @@ void main()
         vec3 part[block];
         for (int i = 0; i < block; i++)
             part[i] = vec3(0.0);
-#if CLAMP == 3
+#ifdef NEAR
         uvec2 near = uvec2(0u);
 #endif
         int end = min(start + tile, total);
@@ -161,7 +163,9 @@ void main()
 #if CLAMP == 3
             // Beside its own surface a disc is too dark: what is not near is a point.
             float spread_area = on_surface != 0 ? 0.0 : area;
+#ifdef NEAR
             bool any_near = false;
+#endif
 #elif CLAMP == 4
             float per = bound.y > 0.5 ? 1.0 : max(max(flux.r, flux.g), max(flux.b, 1e-30));
             float most = bound.x / (unit * unit * per);
@@ -188,7 +192,9 @@ void main()
 #if CLAMP == 3
                 bool is_near = patch_is_near(d2, cos_j, area);
                 share = is_near ? 0.0 : share;
+#ifdef NEAR
                 any_near = any_near || is_near;
+#endif
 #elif CLAMP == 4
                 share = min(share, most);
 #endif
@@ -198,14 +204,14 @@ void main()
 #endif
                 part[i] += flux * share;
             }
-#if CLAMP == 3
+#ifdef NEAR
             if (any_near)
                 near[(j - start) >> 5] |= 1u << ((j - start) & 31);
 #endif
         }
         for (int i = 0; i < block; i++)
             sum[i] += part[i];
-#if CLAMP == 3
+#ifdef NEAR
         correct_near(start, near, p, unit);
 #endif
     }
@@ -213,7 +219,7 @@ void main()
         if (!is_there(i))
             continue;
         ivec2 at = place_of(i);
-#if CLAMP != 3
+#ifndef NEAR
         if (span.x > 0)
 #endif
             sum[i] += imageLoad(indirect, at).rgb;

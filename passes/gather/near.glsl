@@ -70,3 +70,11 @@ float patch_share(vec3 d, vec3 n, ag_vpl v, float area, float cos_j, float lift)
     d -= v.normal.xyz * max(lift * edge - cos_j, 0.0);
     return patch_form_factor(d, n, v, edge) / area;
 }
+
+// The same of a VPL that stands on its surface: no lift. Its patch reaches through a wall that it
+// stands before; the wall's other side does not see the VPL and gets nothing.
+float patch_share_on_surface(vec3 d, vec3 n, ag_vpl v, float area)
+{
+    float cos_j = max(-dot(v.normal.xyz, d), 0.0);
+    return dot(n, d) > 0.0 ? patch_share(d, n, v, area, cos_j, 0.0) : 0.0;
+}

@@ -133,6 +133,7 @@ typedef struct iir {
     ag_combine_pass combine;
     ag_compensate_pass compensate;
     ag_box_filter_pass filter;
+    ag_near_pass near;
     ag_vpl_dots_pass dots;
     ag_tone_pass unfiltered;
     iir_domain_layer domain;
@@ -368,6 +369,7 @@ static void iir_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
         .on_surface = true,
         .split = &s->split,
         .paraboloid = s->maps ? &s->shadow : NULL,
+        .far_only = true,
     };
     const ag_box_filter_desc filter = { (ag_box_metric) v[METRIC].i, (float) v[ALPHA].f,
                                         (float) v[BETA].f };
@@ -382,6 +384,11 @@ static void iir_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs
     ag_box_filter_declare(&s->filter, g, &s->split, declare_compensation(s, g, in), &filter);
     declare_layers(s, g, in, out);
     out->indirect = s->filter.out;
+    if (s->gather.far_only) {
+        const ag_near_desc near = { "iir", s->filter.out, gather.paraboloid };
+        ag_near_declare(&s->near, g, &in->scene, &in->gbuffer, &s->vpl, &near);
+        out->indirect = s->near.out;
+    }
 }
 
 static int iir_counters(void *self, gi_counter *out, int max)

@@ -64,6 +64,7 @@ static const struct {
     { "ism", STAGE_VISIBILITY },
     { "shadow", STAGE_VISIBILITY },
     { "gather", STAGE_LIGHT },
+    { "near", STAGE_LIGHT },
     { "splat", STAGE_LIGHT },
     { "cells", STAGE_UPSAMPLE },
     { "push", STAGE_UPSAMPLE },

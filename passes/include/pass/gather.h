@@ -45,7 +45,7 @@ typedef struct ag_gather_pass {
     float bound;  // clamp_d2, clamp_e or clamp_g
     int block;    // receivers of one invocation: 1, 4 or 16
     int capacity; // of `vpls`
-    bool on_surface;
+    bool on_surface, far_only;
     const ag_ism_pass *visibility;
     const ag_multires_pass *multires;
     const ag_paraboloid_pass *paraboloid;
@@ -68,11 +68,36 @@ typedef struct ag_gather_desc {
     // Neither goes with multires or visibility, nor do IRRADIANCE and GEOMETRY. Borrowed likewise.
     const ag_split_pass *split;           // NULL: the frame in one
     const ag_paraboloid_pass *paraboloid; // maps of these VPLs. NULL: nothing shadows them
+    bool far_only; // with a split frame and FOOTPRINT: ag_near_declare() adds what is near
 } ag_gather_desc;
 
 FG_API void ag_gather_declare(ag_gather_pass *pass, fg_graph *g, const ag_scene_res *scene,
                               const ag_gbuffer *gbuffer, const ag_vpl_pass *vpls,
                               const ag_gather_desc *desc);
+
+// The light of near VPLs, those within 2 sqrt(A_j), at every pixel: pass "PREFIX.near". What a
+// gather over a split frame left out with `far_only`, to be added when the rest has been combined
+// and filtered. VPLs stand on their surfaces.
+//
+// Shapes: in, out RGBA32F of the frame's size.
+// Units:  E / pi, W/(m^2 sr).
+typedef struct ag_near_pass {
+    ag_scene_res scene;
+    fg_res position, normal, vpls, count;
+    fg_res in, out;
+    const ag_paraboloid_pass *paraboloid;
+} ag_near_pass;
+
+typedef struct ag_near_desc {
+    const char *prefix;
+    fg_res in;                            // E / pi
+    const ag_paraboloid_pass *paraboloid; // maps of these VPLs, borrowed while the graph runs.
+                                          // NULL: nothing shadows them
+} ag_near_desc;
+
+FG_API void ag_near_declare(ag_near_pass *pass, fg_graph *g, const ag_scene_res *scene,
+                            const ag_gbuffer *gbuffer, const ag_vpl_pass *vpls,
+                            const ag_near_desc *desc);
 
 FG_END
 
