@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Irradiance of receivers from all VPLs: gather.comp and gather.frag. BLOCK_X, BLOCK_Y: receivers of
-// one invocation. FAR: near VPLs are left out. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint, 4 bounded. LIST, SPLIT: see
-// receivers.glsl. VISIBILITY: see visible.glsl.
+// one invocation. CLAMP: 0 none, 1 disc, 2 constant, 3 footprint, 4 bounded. FAR: near VPLs are left
+// out. LIST, SPLIT: see receivers.glsl. VISIBILITY: see visible.glsl.
 //
 // E_i = sum_j rho_j Phi_j cos_i cos_j / (pi d^2 + A_j)
 // Source: Nichols, Shopf, Wyman 2009, eq. 1 and 5.
