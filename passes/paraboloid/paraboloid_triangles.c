@@ -56,7 +56,7 @@ static void grow_box(const ag_scene *scene, const ag_instance *instance, double 
 
 static void find_box(paraboloid_triangles *t, const ag_scene *scene)
 {
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
+    double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
     for (int i = 0; i < scene->instance_count; i++)
         if (!scene->instances[i].moving)
             grow_box(scene, &scene->instances[i], low, high);

@@ -155,7 +155,7 @@ static fg_status growth(stability *s, double *out)
     const ag_light lamp = stability_lamp();
     const room what = swinging_room(&lamp);
     const int start = s->frames / 10, middle = (start + s->frames) / 2;
-    double least[2] = { INFINITY, INFINITY };
+    double least[2] = { HUGE_VAL, HUGE_VAL };
     reel r;
     fg_status status = reel_open(s, &what, tiny, BUDGETED, true, &r);
     for (int i = 0; i < s->frames && status == FG_OK; ++i) {

@@ -260,7 +260,7 @@ double maps_by_ray(const maps_host *h, const ag_paraboloid_eye *eye, const doubl
 static bool is_near_edge(const maps_host *h, const ag_paraboloid_eye *eye, const double d[3],
                          double got, double angle)
 {
-    double low = INFINITY, high = 0, t[3], b[3];
+    double low = HUGE_VAL, high = 0, t[3], b[3];
     ag_frame_about(d, t, b);
     for (int i = 0; i <= 16; i++) {
         const double r = angle * (i < 8 ? 1 : i < 16 ? 0.3 : 0), phi = pi * i / 4;

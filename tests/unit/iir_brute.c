@@ -26,7 +26,7 @@ void points_corners_of(const iir_domain *d, int capacity, points_corners *out)
 
 double points_nearest(const points_corners *c, const double place[3], int *which)
 {
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (int i = 0; i < c->count; ++i) {
         const double distance = distance2(c->at[i], place);
         if (distance < least) {
@@ -39,7 +39,7 @@ double points_nearest(const points_corners *c, const double place[3], int *which
 
 double points_least_distance(const points_corners *c)
 {
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (int i = 0; i < c->count; ++i)
         for (int k = 0; k < i; ++k)
             least = fmin(least, distance2(c->at[i], c->at[k]));
@@ -66,7 +66,7 @@ static double disc_edge(const points_corners *c, int p, int q)
     const double middle[] = { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2 };
     const double length = sqrt(distance2(a, b));
     const double way[] = { (a[1] - b[1]) / length, (b[0] - a[0]) / length };
-    double from = -INFINITY, to = INFINITY;
+    double from = -HUGE_VAL, to = HUGE_VAL;
     for (int i = 0; i < c->count; ++i) {
         if (i == p || i == q)
             continue;
@@ -131,7 +131,7 @@ static double sphere_edge(const points_corners *c, int p, int q)
 // Squared distance to the second closest neighbour; edges shorter than `least` count as none.
 static double second_distance(const points_corners *c, iir_space space, int p, double least)
 {
-    double near[2] = { INFINITY, INFINITY };
+    double near[2] = { HUGE_VAL, HUGE_VAL };
     for (int q = 0; q < c->count; ++q) {
         if (q == p)
             continue;
@@ -147,7 +147,7 @@ static double second_distance(const points_corners *c, iir_space space, int p, d
 
 static double nearest_distance2(const points_corners *c, int p)
 {
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (int i = 0; i < c->count; ++i)
         if (i != p)
             least = fmin(least, distance2(c->at[i], c->at[p]));
@@ -156,7 +156,7 @@ static double nearest_distance2(const points_corners *c, int p)
 
 bool points_redundant(const points_corners *c, iir_space space, int id)
 {
-    double least = INFINITY, best = INFINITY, lowest = INFINITY;
+    double least = HUGE_VAL, best = HUGE_VAL, lowest = HUGE_VAL;
     int first = -1, who = -1;
     for (int i = 0; i < c->count; ++i)
         least = fmin(least, nearest_distance2(c, i));

@@ -391,7 +391,7 @@ static void what_is_no_point_is_refused(void **state)
 {
     (void) state;
     const double good[3] = { 0.6, 0, 0.8 };
-    const double bad[][3] = { { NAN, 0, 0 }, { 0, INFINITY, 0 } };
+    const double bad[][3] = { { (double) NAN, 0, 0 }, { 0, HUGE_VAL, 0 } };
     for (int back = 0; back < POINTS_BACKS; ++back) {
         iir_domain *d = points_domain(&points_backs[back], 4);
         for (int i = 0; i < 2; ++i)

@@ -332,7 +332,9 @@ static void equal_areas_get_equal_power(void **state)
 static double quadrature(const ag_light *light)
 {
     enum { STEPS = 200000 };
-    const double from = light->kind == AG_LIGHT_POINT ? -1 : light->cosine ? 0 : light->cos_outer;
+    const double from = light->kind == AG_LIGHT_POINT ? -1
+                        : light->cosine               ? 0
+                                                      : (double) light->cos_outer;
     double sum = 0;
     for (int i = 0; i < STEPS; i++) {
         const double c = from + (1 - from) * (i + 0.5) / STEPS, s = sqrt(1 - c * c);

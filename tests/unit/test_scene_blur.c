@@ -123,7 +123,7 @@ static void a_texture_that_is_small_enough_stays_as_it_is(void **state)
         ag_blur_albedo(blur, 0, uv, color, albedo);
         ag_surface_eval(scene, &scene->materials[0], uv, color, &surface);
         for (int k = 0; k < 3; k++)
-            assert_near(albedo[k], surface.albedo[k], 1e-6);
+            assert_near((double) albedo[k], (double) surface.albedo[k], 1e-6);
     }
     ag_blur_destroy(blur);
     ag_scene_destroy(scene);

@@ -348,7 +348,7 @@ int iir_domain_duplicate_of(const iir_domain *d, int id)
 
 static void find_near(const iir_domain *d, int id, int size, double near[2])
 {
-    near[0] = near[1] = INFINITY;
+    near[0] = near[1] = HUGE_VAL;
     for (int i = 0; i < size; ++i) {
         if (d->ring[i] < 0)
             continue;

@@ -72,7 +72,7 @@ static double corner_along(const iir_domain *d, int p, int q, int r, double side
     const vec u = { a[0] - c[0], a[1] - c[1] }, v = { b[0] - c[0], b[1] - c[1] };
     const double turn = side * cross(u, v), cosine = dot(u, v);
     if (!(turn > 0))
-        return copysign(INFINITY, side * cosine);
+        return copysign(HUGE_VAL, side * cosine);
     return side * 0.5 * sqrt(domain_distance2(a, b)) * cosine / turn;
 }
 

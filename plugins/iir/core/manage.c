@@ -256,7 +256,7 @@ static void share_points(iir_manager *m, const iir_budget *budget)
         light_state *l = &m->lights[i];
         share *s = &m->shares[i];
         if (l->share != s->part) {
-            l->least = INFINITY;
+            l->least = HUGE_VAL;
             l->tries = 0;
             l->rested = false;
         }

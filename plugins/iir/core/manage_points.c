@@ -63,7 +63,7 @@ fg_status iir_points_place(iir_manager *m, int light)
     l->first_free = l->count;
     l->dirty = true;
     l->rested = false;
-    l->least = INFINITY;
+    l->least = HUGE_VAL;
     l->tries = 0;
     return iir_domain_set(l->domain, (const double(*)[3]) m->at, m->ids, l->count);
 }
