@@ -65,24 +65,43 @@ void measure(bool there, vec3 p)
 bool reaches_box(int j, vec3 box_low, vec3 box_high, float unit)
 {
     vec3 q = vpls[j].position_area.xyz * unit;
-    vec3 d = max(max(box_low - q, q - box_high), vec3(0.0));
-    return dot(d, d) < near_areas * vpls[j].position_area.w * unit * unit;
+    vec3 m = vpls[j].normal.xyz, d = max(max(box_low - q, q - box_high), vec3(0.0));
+    vec3 ahead = mix(box_low, box_high, greaterThan(m, vec3(0.0))); // the corner farthest along m
+    return dot(m, ahead - q) > 0.0 && dot(d, d) < near_areas * vpls[j].position_area.w * unit * unit;
+}
+
+// Whether VPL j lights a pixel from near.
+bool is_near(int j, vec3 p, vec3 n, float unit)
+{
+    vec3 d = vpls[j].position_area.xyz * unit - p;
+    float area = vpls[j].position_area.w * unit * unit;
+    float cos_j = max(-dot(vpls[j].normal.xyz, d), 0.0); // times |d|
+    return dot(n, d) > 0.0 && patch_is_near(dot(d, d), cos_j, area);
 }
 
 vec3 light_of(int j, vec3 p, vec3 n, float unit)
 {
     ag_vpl v = vpls[j];
     vec3 d = v.position_area.xyz * unit - p;
-    float area = v.position_area.w * unit * unit;
-    float cos_j = max(-dot(v.normal.xyz, d), 0.0); // times |d|
-    if (!patch_is_near(dot(d, d), cos_j, area))
-        return vec3(0.0);
-    float share = patch_share_on_surface(d, n, v, area);
+    float share = patch_share_on_surface(d, n, v, v.position_area.w * unit * unit);
 #ifdef VISIBILITY
-    if (share > 0.0)
-        share *= vpl_visibility(vpl_open(j, int(count.x)), p, n);
+    share *= vpl_visibility(vpl_open(j, int(count.x)), p, n);
 #endif
     return v.flux.rgb * share;
+}
+
+// Of the 32 VPLs from `first` on that may be near the work group. What takes long is done for those
+// that are near the pixel itself: neighbours each take their own next one at a time.
+vec3 light_of_word(uint bits, int first, vec3 p, vec3 n, float unit)
+{
+    uint mine = 0u;
+    for (; bits != 0u; bits &= bits - 1u)
+        if (is_near(first + findLSB(bits), p, n, unit))
+            mine |= bits & (~bits + 1u);
+    vec3 sum = vec3(0.0);
+    for (; mine != 0u; mine &= mine - 1u)
+        sum += light_of(first + findLSB(mine), p, n, unit);
+    return sum;
 }
 
 void main()
@@ -108,8 +127,7 @@ void main()
             atomicOr(found[me >> 5], 1u << (me & 31));
         barrier();
         for (int word = 0; word < group / 32; word++)
-            for (uint bits = found[word]; bits != 0u; bits &= bits - 1u)
-                sum += light_of(start + 32 * word + findLSB(bits), p, n, unit);
+            sum += light_of_word(there ? found[word] : 0u, start + 32 * word, p, n, unit);
         barrier();
     }
     if (!inside)
