@@ -92,8 +92,9 @@ void add_near(int j, int i, float unit)
     vec3 d = vpls[j].position_area.xyz * unit - p * unit;
     float area = vpls[j].position_area.w * unit * unit;
     n /= max(length(n), 1e-6);
+    float cos_j = max(-dot(vpls[j].normal.xyz, d), 0.0); // times |d|
     float share = on_surface != 0 ? patch_share_on_surface(d, n, vpls[j], area)
-                                  : patch_share(d, n, vpls[j], area, max(-dot(vpls[j].normal.xyz, d), 0.0), texel_lift);
+                                  : patch_share(d, n, vpls[j], area, cos_j, texel_lift);
 #ifdef VISIBILITY
     share *= vpl_visibility(vpl_open(j, int(count.x)), p * unit, n);
 #endif

@@ -31,8 +31,9 @@ static void set_colour(iir_dot *dot, const iir_result *result, int vpl)
         dot->colour[k] = from[k];
 }
 
-void iir_domain_layer_set(iir_domain_layer *l, const iir_result *result)
+static void list_dots(iir_domain_layer *l)
 {
+    const iir_result *result = l->result;
     l->count = 0;
     for (int i = 0; i < result->point_count && l->count < l->capacity; i++) {
         const iir_point *point = result->points + i;
@@ -49,11 +50,12 @@ void iir_domain_layer_set(iir_domain_layer *l, const iir_result *result)
 
 static fg_status run_layer(const fg_run *run, void *user)
 {
-    const iir_domain_layer *l = user;
+    iir_domain_layer *l = user;
     const fg_gl_program_desc desc = { .shaders = { &domain_comp } };
     const uint32_t program = fg_gl_program(fg_run_device(run), &desc);
     if (!program)
         return FG_ERR_SHADER;
+    list_dots(l);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); // shaders may have used the memory before
     if (l->count > 0)
         glNamedBufferSubData(fg_run_object(run, l->buffer), 0,
@@ -67,8 +69,9 @@ static fg_status run_layer(const fg_run *run, void *user)
     return FG_OK;
 }
 
-void iir_domain_layer_declare(iir_domain_layer *l, fg_graph *g)
+void iir_domain_layer_declare(iir_domain_layer *l, fg_graph *g, const iir_result *result)
 {
+    l->result = result;
     const fg_tex_desc picture = { .format = FG_RGBA16F, .width = EDGE, .height = EDGE };
     const fg_buf_desc dots = { .size = (uint64_t) l->capacity * sizeof(iir_dot) };
     l->buffer = fg_buffer(g, "iir.domain_dots", &dots);

@@ -16,12 +16,13 @@ typedef struct iir_domain_layer {
     iir_dot *dots; // [capacity], owned
     int capacity, count;
     bool on_sphere;
+    const iir_result *result; // of the frame that runs
     fg_res buffer, out;
 } iir_domain_layer;
 
 FG_NODISCARD fg_status iir_domain_layer_init(iir_domain_layer *l, int capacity); // FG_ERR_MEMORY
 void iir_domain_layer_finish(iir_domain_layer *l);                               // a zeroed one too
-void iir_domain_layer_set(iir_domain_layer *l, const iir_result *result);
-void iir_domain_layer_declare(iir_domain_layer *l, fg_graph *g);
+// `result` is borrowed, and read when the pass runs.
+void iir_domain_layer_declare(iir_domain_layer *l, fg_graph *g, const iir_result *result);
 
 #endif // IIR_DOMAIN_LAYER_H

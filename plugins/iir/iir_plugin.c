@@ -280,10 +280,8 @@ static fg_status iir_update(void *self, const gi_frame *frame)
         return status;
     s->stats = *result;
     list_vpls(s, frame->view);
-    iir_domain_layer_set(&s->domain, result);
-    s->clamp_g = geometry_bound(s);
     if (clamps[s->values[CLAMP].i] == AG_CLAMP_GEOMETRY)
-        s->gather.bound = s->compensate.bound = s->clamp_g;
+        s->gather.bound = s->compensate.bound = s->clamp_g = geometry_bound(s);
     if (s->maps)
         ag_paraboloid_set(s->maps, s->eyes, s->stats.count, frame->view);
     return FG_OK;
@@ -330,7 +328,7 @@ static void declare_layers(iir *s, fg_graph *g, const gi_inputs *in, gi_outputs 
     ag_vpl_dots_declare(&s->dots, g, s->env.gpu_scene, &s->vpl, &dots);
     s->unfiltered = (ag_tone_pass){ .radiance = s->combine.out, .exposure = 1 };
     ag_tone_declare(&s->unfiltered, g, "iir.unfiltered_layer", "iir.unfiltered_layer");
-    iir_domain_layer_declare(&s->domain, g);
+    iir_domain_layer_declare(&s->domain, g, &s->stats);
     out->layers[VPLS_LAYER] = s->dots.out;
     out->layers[DOMAIN_LAYER] = s->domain.out;
     out->layers[UNFILTERED_LAYER] = s->unfiltered.out;

@@ -365,15 +365,20 @@ static fg_status change_plugin(const reel *r, int frame)
     return frame == 4 ? renderer_set_plugin(r->r, r->own.plugin, r->own.values) : FG_OK;
 }
 
-// Back again, a plugin is as new.
-static fg_status switched(stability *s, double *out)
+// What a reel ends in after `change`, and what a fresh plugin makes of that moment.
+static fg_status changed_and_fresh(stability *s, change_fn change, image *a, image *b)
 {
     const ag_light lamp = stability_lamp();
     const room what = moving_room(&lamp);
+    const fg_status status = changed_picture(s, (shot){ 0 }, prompt, change, a);
+    return status == FG_OK ? reel_fresh(s, &what, (shot){ 0 }, prompt, 0.4, b) : status;
+}
+
+// Back again, a plugin is as new.
+static fg_status switched(stability *s, double *out)
+{
     image a = { 0 }, b = { 0 };
-    fg_status status = changed_picture(s, (shot){ 0 }, prompt, change_plugin, &a);
-    if (status == FG_OK)
-        status = reel_fresh(s, &what, (shot){ 0 }, prompt, 0.4, &b);
+    const fg_status status = changed_and_fresh(s, change_plugin, &a, &b);
     if (status == FG_OK)
         *out = (double) stability_differing(&a, &b);
     image_finish(&a);
@@ -403,12 +408,8 @@ static fg_status change_values(const reel *r, int frame)
 
 static fg_status other_values(stability *s, double *out)
 {
-    const ag_light lamp = stability_lamp();
-    const room what = moving_room(&lamp);
     image a = { 0 }, b = { 0 };
-    fg_status status = changed_picture(s, (shot){ 0 }, prompt, change_values, &a);
-    if (status == FG_OK)
-        status = reel_fresh(s, &what, (shot){ 0 }, prompt, 0.4, &b);
+    const fg_status status = changed_and_fresh(s, change_values, &a, &b);
     if (status == FG_OK)
         *out = stability_change(stability_mean(&a), stability_mean(&b));
     image_finish(&a);
