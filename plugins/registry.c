@@ -2,11 +2,10 @@
 #include <gi/registry.h>
 
 #include "linked.h" // generated: GI_LINKED(X) names the techniques that are linked in
+#include "module_priv.h"
 
-#include <assert.h>
 #include <dirent.h>
 #include <dlfcn.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,46 +18,76 @@ typedef struct entry {
     char *path;               // NULL: linked in
     gi_plugin_entry_fn entry; // linked in
     void *module;
-    const gi_plugin *plugin; // checked; NULL until first use
+    const gi_plugin *plugin; // checked; NULL until first use, and after a refusal
+    bool tried;              // the file was opened, and was then as `loaded` says
+    module_stamp loaded;
+    module_stamp seen; // by gi_changed(), first at `seen_since`
+    int64_t seen_since;
 } entry;
+
+typedef struct entries {
+    entry *items;
+    int count;
+} entries;
 
 struct gi_registry {
     const fg_log *log;
-    entry *entries; // sorted by name
-    int count;
+    char **dirs; // ends at NULL
+    bool only_dirs, hot;
+    entries all;    // sorted by name
+    void **retired; // modules that another has taken the place of; still mapped
+    int retired_count;
 };
 
 // ---- finding --------------------------------------------------------------------
 
-static bool has(const gi_registry *r, const char *name)
+static entry *find(const entries *all, const char *name)
 {
-    for (int i = 0; i < r->count; ++i) {
-        if (!strcmp(r->entries[i].name, name))
-            return true;
+    for (int i = 0; i < all->count; ++i)
+        if (!strcmp(all->items[i].name, name))
+            return &all->items[i];
+    return NULL;
+}
+
+static void free_entry(entry *e)
+{
+    if (e->module)
+        dlclose(e->module);
+    free(e->name);
+    free(e->path);
+}
+
+static void free_entries(entries *all)
+{
+    for (int i = 0; i < all->count; ++i)
+        free_entry(&all->items[i]);
+    free(all->items);
+    *all = (entries){ 0 };
+}
+
+// Takes what `e` owns, also when it fails.
+static fg_status append(entries *all, entry *e)
+{
+    entry *grown = realloc(all->items, (size_t) (all->count + 1) * sizeof *grown);
+    if (!grown) {
+        free_entry(e);
+        return FG_ERR_MEMORY;
     }
-    return false;
+    all->items = grown;
+    all->items[all->count++] = *e;
+    return FG_OK;
 }
 
 // The first of a name wins. Takes `path`, also when it fails.
-static fg_status add(gi_registry *r, const char *name, size_t length, char *path,
+static fg_status add(entries *all, const char *name, size_t length, char *path,
                      gi_plugin_entry_fn fn)
 {
-    char *copy = strndup(name, length);
-    if (copy && has(r, copy)) {
-        free(copy);
-        free(path);
-        return FG_OK;
-    }
-    entry *grown = realloc(r->entries, (size_t) (r->count + 1) * sizeof *grown);
-    if (grown)
-        r->entries = grown;
-    if (!copy || !grown) {
-        free(copy);
-        free(path);
-        return FG_ERR_MEMORY;
-    }
-    r->entries[r->count++] = (entry){ .name = copy, .path = path, .entry = fn };
-    return FG_OK;
+    entry e = { .name = strndup(name, length), .path = path, .entry = fn };
+    if (e.name && !find(all, e.name))
+        return append(all, &e);
+    const fg_status status = e.name ? FG_OK : FG_ERR_MEMORY;
+    free_entry(&e);
+    return status;
 }
 
 static bool is_module(const char *file, size_t *length)
@@ -73,7 +102,7 @@ static bool is_module(const char *file, size_t *length)
 }
 
 // A folder that is not there holds no plugin; that is no error.
-static fg_status scan(gi_registry *r, const char *dir)
+static fg_status scan(entries *all, const char *dir)
 {
     fg_status status = FG_OK;
     DIR *d = opendir(dir);
@@ -86,14 +115,14 @@ static fg_status scan(gi_registry *r, const char *dir)
         if (asprintf(&path, "%s/%s", dir, file->d_name) < 0)
             status = FG_ERR_MEMORY;
         else
-            status = add(r, file->d_name + strlen(MODULE_PREFIX), length, path, NULL);
+            status = add(all, file->d_name + strlen(MODULE_PREFIX), length, path, NULL);
     }
     if (d)
         closedir(d);
     return status;
 }
 
-static fg_status scan_environment(gi_registry *r)
+static fg_status scan_environment(entries *all)
 {
     const char *path = getenv("AFTERGLOW_PLUGIN_PATH");
     fg_status status = FG_OK;
@@ -103,7 +132,7 @@ static fg_status scan_environment(gi_registry *r)
         if (!dir)
             return FG_ERR_MEMORY;
         if (length)
-            status = scan(r, dir);
+            status = scan(all, dir);
         free(dir);
         path += length + (path[length] == ':');
     }
@@ -112,7 +141,7 @@ static fg_status scan_environment(gi_registry *r)
 
 // Beside this library: its own folder in a build tree, afterglow/plugins below it where it is
 // installed. Then where it was to be installed, for a host that has it linked statically.
-static fg_status scan_default(gi_registry *r)
+static fg_status scan_default(entries *all)
 {
     static const char here = 0; // an address in this library
     Dl_info info;
@@ -126,22 +155,36 @@ static fg_status scan_default(gi_registry *r)
             char *dir;
             if (asprintf(&dir, "%.*s%s", length, folder, below[i]) < 0)
                 return FG_ERR_MEMORY;
-            status = scan(r, dir);
+            status = scan(all, dir);
             free(dir);
         }
     }
-    return status == FG_OK ? scan(r, GI_PLUGIN_DIR) : status;
+    return status == FG_OK ? scan(all, GI_PLUGIN_DIR) : status;
 }
 
-static fg_status add_linked(gi_registry *r)
+static fg_status add_linked(entries *all)
 {
     fg_status status = FG_OK;
-    (void) r;
+    (void) all;
 #define GI_ADD(name)                                                                               \
     if (status == FG_OK)                                                                           \
-        status = add(r, #name, strlen(#name), NULL, gi_plugin_entry_##name);
+        status = add(all, #name, strlen(#name), NULL, gi_plugin_entry_##name);
     GI_LINKED(GI_ADD)
 #undef GI_ADD
+    return status;
+}
+
+static fg_status scan_all(const gi_registry *r, entries *all)
+{
+    fg_status status = add_linked(all);
+    for (int i = 0; status == FG_OK && r->dirs[i]; ++i)
+        status = scan(all, r->dirs[i]);
+    if (status == FG_OK && !r->only_dirs)
+        status = scan_environment(all);
+    if (status == FG_OK && !r->only_dirs)
+        status = scan_default(all);
+    if (status != FG_OK)
+        fg_logf(r->log, FG_LOG_ERROR, "plugins: out of memory while searching");
     return status;
 }
 
@@ -150,51 +193,73 @@ static int by_name(const void *a, const void *b)
     return strcmp(((const entry *) a)->name, ((const entry *) b)->name);
 }
 
+static void sort(entries *all)
+{
+    if (all->count)
+        qsort(all->items, (size_t) all->count, sizeof *all->items, by_name);
+}
+
+// ---- life ---------------------------------------------------------------------------
+
+static char **copy_dirs(const char *const *dirs)
+{
+    size_t n = 0;
+    while (dirs && dirs[n])
+        ++n;
+    char **copy = calloc(n + 1, sizeof *copy);
+    for (size_t i = 0; copy && i < n; ++i) {
+        copy[i] = strdup(dirs[i]);
+        if (copy[i])
+            continue;
+        while (i > 0)
+            free(copy[--i]);
+        free(copy);
+        return NULL;
+    }
+    return copy;
+}
+
 fg_status gi_registry_create(const gi_registry_desc *desc, gi_registry **out)
 {
-    fg_status status = FG_ERR_MEMORY;
-    gi_registry *r = calloc(1, sizeof *r);
     *out = NULL;
-    if (!r)
-        goto fail;
-    r->log = desc->log;
-    status = add_linked(r);
-    for (int i = 0; status == FG_OK && desc->dirs && desc->dirs[i]; ++i)
-        status = scan(r, desc->dirs[i]);
-    if (status == FG_OK && !desc->only_dirs)
-        status = scan_environment(r);
-    if (status == FG_OK && !desc->only_dirs)
-        status = scan_default(r);
-    if (status != FG_OK)
-        goto fail;
-    if (r->count)
-        qsort(r->entries, (size_t) r->count, sizeof *r->entries, by_name);
+    gi_registry *r = calloc(1, sizeof *r);
+    char **dirs = copy_dirs(desc->dirs);
+    if (!r || !dirs) {
+        fg_logf(desc->log, FG_LOG_ERROR, "plugins: out of memory");
+        free(r);
+        free(dirs);
+        return FG_ERR_MEMORY;
+    }
+    *r = (gi_registry){
+        .log = desc->log, .dirs = dirs, .only_dirs = desc->only_dirs, .hot = desc->hot
+    };
+    const fg_status status = scan_all(r, &r->all);
+    if (status != FG_OK) {
+        gi_registry_destroy(r);
+        return status;
+    }
+    sort(&r->all);
     *out = r;
     return FG_OK;
-
-fail:
-    fg_logf(desc->log, FG_LOG_ERROR, "plugins: out of memory while searching");
-    gi_registry_destroy(r);
-    return status;
 }
 
 void gi_registry_destroy(gi_registry *r)
 {
     if (!r)
         return;
-    for (int i = 0; i < r->count; ++i) {
-        if (r->entries[i].module)
-            dlclose(r->entries[i].module);
-        free(r->entries[i].name);
-        free(r->entries[i].path);
-    }
-    free(r->entries);
+    free_entries(&r->all);
+    for (int i = r->retired_count; i > 0; --i)
+        dlclose(r->retired[i - 1]);
+    free(r->retired);
+    for (int i = 0; r->dirs[i]; ++i)
+        free(r->dirs[i]);
+    free(r->dirs);
     free(r);
 }
 
 const char *gi_name(gi_registry *r, int i)
 {
-    return i >= 0 && i < r->count ? r->entries[i].name : NULL;
+    return i >= 0 && i < r->all.count ? r->all.items[i].name : NULL;
 }
 
 int gi_layers_count(const gi_plugin *p)
@@ -281,53 +346,120 @@ static bool check(const fg_log *log, const entry *e, const gi_plugin *p)
     return check_layers(log, p);
 }
 
-static const gi_plugin *load(gi_registry *r, entry *e)
+// Opens the file; what was there before stays where this fails.
+static fg_status open_module(gi_registry *r, entry *e)
 {
-    if (e->path) {
-        e->module = dlopen(e->path, RTLD_NOW | RTLD_LOCAL);
-        if (!e->module) {
-            fg_logf(r->log, FG_LOG_ERROR, "plugin %s: cannot be loaded: %s", e->name, dlerror());
-            return NULL;
+    void *module = module_open(r->log, e->name, e->path, r->hot, &e->loaded);
+    e->tried = true;
+    if (!module)
+        return FG_ERR_INPUT;
+    if (e->module) {
+        void **grown = realloc(r->retired, (size_t) (r->retired_count + 1) * sizeof *grown);
+        if (!grown) {
+            fg_logf(r->log, FG_LOG_ERROR, "plugin %s: out of memory", e->name);
+            dlclose(module);
+            return FG_ERR_MEMORY;
         }
-        // POSIX gives functions as data pointers; the copy keeps ISO C out of it.
-        void *symbol = dlsym(e->module, GI_PLUGIN_SYMBOL);
-        memcpy(&e->entry, &symbol, sizeof symbol);
+        r->retired = grown;
+        r->retired[r->retired_count++] = e->module;
     }
+    // POSIX gives functions as data pointers; the copy keeps ISO C out of it.
+    void *symbol = dlsym(module, GI_PLUGIN_SYMBOL);
+    memcpy(&e->entry, &symbol, sizeof symbol);
+    e->module = module;
+    e->plugin = NULL;
+    return FG_OK;
+}
+
+static fg_status load(gi_registry *r, entry *e)
+{
+    const fg_status status = e->path ? open_module(r, e) : FG_OK;
+    if (status != FG_OK)
+        return status;
     const gi_plugin *p = NULL;
     if (!e->entry)
         fg_logf(r->log, FG_LOG_ERROR, "plugin %s: %s has no symbol %s", e->name, e->path,
                 GI_PLUGIN_SYMBOL);
     else if (p = e->entry(), !check(r->log, e, p))
         p = NULL;
-    if (!p && e->module) {
+    e->plugin = p;
+    if (p)
+        return FG_OK;
+    if (e->module) { // nobody has seen anything of it
         dlclose(e->module);
         e->module = NULL;
         e->entry = NULL;
     }
-    return p;
+    return FG_ERR_UNSUPPORTED;
 }
 
 static void log_unknown(gi_registry *r, const char *name)
 {
     char known[512] = "";
     size_t used = 0;
-    for (int i = 0; i < r->count && used < sizeof known; ++i)
+    for (int i = 0; i < r->all.count && used < sizeof known; ++i)
         used += (size_t) snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
-                                  r->entries[i].name);
+                                  r->all.items[i].name);
     fg_logf(r->log, FG_LOG_ERROR, "plugin '%s': not found; there %s %s", name,
-            r->count == 1 ? "is" : "are", r->count ? known : "none");
+            r->all.count == 1 ? "is" : "are", r->all.count ? known : "none");
 }
 
 const gi_plugin *gi_find(gi_registry *r, const char *name)
 {
-    for (int i = 0; i < r->count; ++i) {
-        entry *e = &r->entries[i];
-        if (strcmp(e->name, name) != 0)
-            continue;
-        if (!e->plugin)
-            e->plugin = load(r, e);
-        return e->plugin;
+    entry *e = find(&r->all, name);
+    if (!e) {
+        log_unknown(r, name);
+        return NULL;
     }
-    log_unknown(r, name);
-    return NULL;
+    return e->plugin || load(r, e) == FG_OK ? e->plugin : NULL;
+}
+
+// ---- loading again ------------------------------------------------------------------
+
+bool gi_changed(gi_registry *r, const char *name)
+{
+    entry *e = find(&r->all, name);
+    if (!r->hot || !e || !e->tried)
+        return false;
+    const module_stamp now = module_look(e->path);
+    if (!module_same(&now, &e->seen) || !e->seen_since) {
+        e->seen = now;
+        e->seen_since = module_now();
+    }
+    return !module_same(&now, &e->loaded) && module_settled(&now, e->seen_since);
+}
+
+fg_status gi_reload(gi_registry *r, const char *name)
+{
+    entry *e = find(&r->all, name);
+    if (!e) {
+        log_unknown(r, name);
+        return FG_ERR_INVALID;
+    }
+    if (!r->hot || !e->path) {
+        fg_logf(r->log, FG_LOG_ERROR, "plugin %s: cannot be loaded again: %s", name,
+                e->path ? "the registry is not hot" : "it is linked in");
+        return FG_ERR_INVALID;
+    }
+    return load(r, e);
+}
+
+fg_status gi_rescan(gi_registry *r)
+{
+    entries fresh = { 0 };
+    fg_status status = scan_all(r, &fresh);
+    for (int i = 0; status == FG_OK && i < fresh.count; ++i) {
+        entry *now = &fresh.items[i], *e = find(&r->all, now->name);
+        if (!e) {
+            status = append(&r->all, now);
+            *now = (entry){ .name = NULL };
+        } else if (now->path && e->path && strcmp(now->path, e->path) != 0) {
+            char *old = e->path; // another folder has it now
+            e->path = now->path;
+            now->path = old;
+        }
+    }
+    free_entries(&fresh);
+    sort(&r->all);
+    return status;
 }

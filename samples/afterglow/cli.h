@@ -22,6 +22,7 @@ enum {
     CLI_MAX_SET = 64,
     CLI_MAX_LIGHTS = 16,
     CLI_MAX_STUDIES = 16,
+    CLI_MAX_FOLDERS = 16,
     CLI_MAX_SIZE = 32768
 };
 
@@ -40,7 +41,9 @@ typedef struct options {
     int timing_frames;                            // 0: not given
     int shadow_size, shadow_taps;                 // 0: not given
     const char *layer, *format, *filter, *budget; // NULL: not given
-    const char *output, *stats, *plugin_dir, *shader_dir, *camera;
+    const char *plugin_dir[CLI_MAX_FOLDERS + 1];  // ends at NULL
+    int plugin_dir_count;
+    const char *output, *stats, *shader_dir, *camera;
     bool camera_at_given;
     double eye[3], target[3], fov; // degrees
     ag_light lights[CLI_MAX_LIGHTS];

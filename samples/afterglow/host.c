@@ -34,13 +34,13 @@ static int check_folder(cli *c, const char *option, const char *path)
 
 int host_open_registry(host *h)
 {
-    const char *const dirs[] = { h->o->plugin_dir, NULL };
-    const int code = check_folder(h->c, "--plugin-dir", h->o->plugin_dir);
-    if (code != EXIT_DONE)
-        return code;
-    return cli_status(
-        h->c,
-        gi_registry_create(&(gi_registry_desc){ .log = &h->c->log, .dirs = dirs }, &h->registry));
+    const gi_registry_desc desc = { .log = &h->c->log, .dirs = h->o->plugin_dir, .hot = h->hot };
+    for (int i = 0; i < h->o->plugin_dir_count; ++i) {
+        const int code = check_folder(h->c, "--plugin-dir", h->o->plugin_dir[i]);
+        if (code != EXIT_DONE)
+            return code;
+    }
+    return cli_status(h->c, gi_registry_create(&desc, &h->registry));
 }
 
 int host_open_device(host *h)

@@ -33,6 +33,7 @@ typedef struct host {
     fg_device *device;
     bool dark_said; // the warning that surfaces alone shine, once a scene
     bool as_it_is;  // host_open_scene() adds no default light
+    bool hot;       // plugins can be loaded again: set before host_open_registry()
     bool fell_back; // the plugin failed in create: direct light goes on alone
     bool refused;   // a module that was asked for was refused: nobody knows its parameters
 } host;

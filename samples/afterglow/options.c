@@ -179,7 +179,8 @@ static const option table[] = {
       "where the result goes; FILE is a folder where there are several" },
     { OPT_STATS, "--stats", NULL, "FILE", "",
       "JSON: frame and per-pass times, counters, memory, what was left out" },
-    { OPT_PLUGIN_DIR, "--plugin-dir", NULL, "DIR", "", "a folder to look for plugins in first" },
+    { OPT_PLUGIN_DIR, "--plugin-dir", NULL, "DIR", "a folder, at most 16 times",
+      "a folder to look for plugins in first; may be given again, the first that has one wins" },
     { OPT_SHADER_DIR, "--shader-dir", NULL, "DIR", "",
       "read shaders below this folder, a source tree, instead of those built in" },
     { OPT_CAMERA, "--camera", NULL, "NAME", "", "a camera of the scene, instead of its first" },
@@ -283,7 +284,7 @@ static bool apply_word(options *o, option_id id, const char *v)
     case OPT_BUDGET: return set_text(v, &o->budget);
     case OPT_OUTPUT: return set_text(v, &o->output);
     case OPT_STATS: return set_text(v, &o->stats);
-    case OPT_PLUGIN_DIR: return set_text(v, &o->plugin_dir);
+    case OPT_PLUGIN_DIR: return add_word(o->plugin_dir, &o->plugin_dir_count, CLI_MAX_FOLDERS, v);
     case OPT_SHADER_DIR: return set_text(v, &o->shader_dir);
     case OPT_CAMERA: return set_text(v, &o->camera);
     case OPT_DEBUG: return set_debug(o, v);

@@ -110,7 +110,7 @@ FG_API FG_NODISCARD fg_status fg_gl_finish(fg_device *dev);
 
 // ---- programs -----------------------------------------------------------------------
 
-// A shader as embedded by the build: static, shared by address.
+// A shader as embedded by the build: static, shared by address; in place as long as the device.
 typedef struct fg_gl_shader {
     const char *name; // path in the source tree, e.g. "passes/gbuffer/gbuffer.vert"; the extension
                       // is the stage
