@@ -93,15 +93,15 @@ static fg_status upload_materials(ag_gpu_scene *s)
 {
     const ag_scene *scene = s->scene;
     const size_t count = (size_t) scene->material_count;
-    ag_gpu_material *materials = calloc(count + 1, sizeof *materials);
-    if (!materials)
+    s->materials = calloc(count + 1, sizeof *s->materials);
+    if (!s->materials)
         return FG_ERR_MEMORY;
     for (size_t i = 0; i < count; i++)
-        material_to_gpu(&scene->materials[i], scene, &s->textures, &materials[i]);
-    const bool done =
-        create_buffer(s, BUFFER_MATERIALS, count * sizeof *materials, materials, false);
-    free(materials);
-    return done ? FG_OK : FG_ERR_MEMORY;
+        material_to_gpu(&scene->materials[i], scene, &s->textures, &s->materials[i]);
+    s->material_revision = scene->material_revision;
+    return create_buffer(s, BUFFER_MATERIALS, count * sizeof *s->materials, s->materials, true)
+               ? FG_OK
+               : FG_ERR_MEMORY;
 }
 
 static bool is_masked(const ag_scene *scene, int instance)
@@ -245,6 +245,7 @@ void ag_gpu_scene_destroy(ag_gpu_scene *s)
     texture_set_finish(&s->textures);
     glDeleteBuffers(BUFFER_COUNT, s->buffers);
     glDeleteVertexArrays(1, &s->vertex_array);
+    free(s->materials);
     free(s->instances);
     free(s->lights);
     free(s->faces);
@@ -305,6 +306,22 @@ static void update_skins(const ag_gpu_scene *s)
     }
 }
 
+static void update_materials(ag_gpu_scene *s)
+{
+    const ag_scene *scene = s->scene;
+    for (int i = 0; i < scene->material_count; i++) {
+        ag_gpu_material now;
+        if (!scene->materials[i].moving)
+            continue;
+        material_to_gpu(&scene->materials[i], scene, &s->textures, &now);
+        if (!memcmp((const char *) &now, (const char *) &s->materials[i], sizeof now))
+            continue;
+        s->materials[i] = now;
+        upload(s, BUFFER_MATERIALS, (uint64_t) i * sizeof now, sizeof now, &now);
+    }
+    s->material_revision = scene->material_revision;
+}
+
 fg_status ag_gpu_scene_update(ag_gpu_scene *s, const ag_view *view)
 {
     const ag_scene *scene = s->scene;
@@ -319,6 +336,8 @@ fg_status ag_gpu_scene_update(ag_gpu_scene *s, const ag_view *view)
     const bool geometry = !s->uploaded || s->geometry_revision != scene->geometry_revision;
     const bool lights = !s->uploaded || s->light_revision != scene->light_revision;
     update_view(s, view);
+    if (s->material_revision != scene->material_revision)
+        update_materials(s);
     if (geometry && s->uploaded && (scene->features & AG_FEATURE_SKINS))
         update_skins(s);
     if (moved || geometry) {

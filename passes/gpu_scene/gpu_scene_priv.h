@@ -76,8 +76,9 @@ struct ag_gpu_scene {
     // What the GPU holds now.
     bool uploaded;
     double origin[3];
-    uint64_t geometry_revision, light_revision;
+    uint64_t geometry_revision, light_revision, material_revision;
     ag_view_block view;
+    ag_gpu_material *materials; // as the scene's
 
     ag_gpu_instance *instances; // scratch of update()
     ag_gpu_light *lights;

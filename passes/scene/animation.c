@@ -5,6 +5,16 @@
 #include <pass/math.h>
 #include <string.h>
 
+bool ag_path_of_material(ag_path path)
+{
+    return path == AG_PATH_EMISSIVE || path == AG_PATH_UV_OFFSET;
+}
+
+int ag_path_size(ag_path path)
+{
+    return path == AG_PATH_ROTATION ? 4 : path == AG_PATH_UV_OFFSET ? 2 : 3;
+}
+
 // The last key at or before `t`; t is within the keys.
 static int key_before(const ag_channel *c, float t)
 {
@@ -58,7 +68,7 @@ static void between(const ag_channel *c, int key, int n, double seconds, double 
 
 void ag_channel_sample(const ag_channel *c, double seconds, double out[4])
 {
-    int n = c->path == AG_PATH_ROTATION ? 4 : 3, last = c->key_count - 1;
+    int n = ag_path_size(c->path), last = c->key_count - 1;
     size_t stride = (size_t) n * (c->interpolation == AG_INTERPOLATE_CUBIC ? 3 : 1);
     size_t middle = c->interpolation == AG_INTERPOLATE_CUBIC ? (size_t) n : 0;
     // Held before the first key and from the last one on.
@@ -78,21 +88,37 @@ void ag_channel_sample(const ag_channel *c, double seconds, double out[4])
         out[i] = length > 0 ? out[i] / length : i == 3;
 }
 
+static void pose_node(ag_trs *pose, ag_path path, const double value[4])
+{
+    if (path == AG_PATH_TRANSLATION)
+        memcpy(pose->translation, value, sizeof pose->translation);
+    else if (path == AG_PATH_ROTATION)
+        memcpy(pose->rotation, value, sizeof pose->rotation);
+    else
+        memcpy(pose->scale, value, sizeof pose->scale);
+}
+
+static void pose_material(ag_material_drive *drive, ag_path path, const double value[4])
+{
+    if (path == AG_PATH_EMISSIVE)
+        memcpy(drive->emissive, value, sizeof drive->emissive);
+    else
+        memcpy(drive->offset, value, sizeof drive->offset);
+}
+
 void ag_animate(ag_scene_private *p, double seconds)
 {
     ag_node *nodes = p->nodes.data;
+    ag_material_drive *drives = p->drives.data;
     const ag_channel *channels = p->channels.data;
     const double *lengths = p->lengths.data;
     for (size_t i = 0; i < p->channels.count; i++) {
         const ag_channel *c = &channels[i];
         double length = lengths[c->animation], value[4];
         ag_channel_sample(c, length > 0 ? fmod(seconds, length) : 0, value);
-        ag_trs *pose = &nodes[c->node].pose;
-        if (c->path == AG_PATH_TRANSLATION)
-            memcpy(pose->translation, value, sizeof pose->translation);
-        else if (c->path == AG_PATH_ROTATION)
-            memcpy(pose->rotation, value, sizeof pose->rotation);
+        if (ag_path_of_material(c->path))
+            pose_material(&drives[c->target], c->path, value);
         else
-            memcpy(pose->scale, value, sizeof pose->scale);
+            pose_node(&nodes[c->target].pose, c->path, value);
     }
 }

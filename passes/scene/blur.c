@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Source: Laine et al. Incremental Instant Radiosity. EGSR 2007, sec. 4.6: the colour of a VPL.
+#include "scene_priv.h"
 #include "surface_priv.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // A small copy of a texture.
 typedef struct copy {
@@ -14,11 +16,18 @@ typedef struct copy {
     float mean[3];
 } copy;
 
+// How a material uses a texture. Of one that moves the reference is not looked at again: another
+// thread may be writing it.
+typedef struct lookup {
+    int copy; // -1: no texture
+    bool moves;
+} lookup;
+
 struct ag_blur {
     const ag_material *materials;
     copy *copies;
     int copy_count;
-    int (*of_material)[2]; // copies of base colour and metallic, -1: no texture
+    lookup (*of_material)[2]; // base colour and metallic
 };
 
 // ---- copies -----------------------------------------------------------------------
@@ -115,9 +124,11 @@ static bool fill_all(ag_blur *b, const ag_scene *scene, int texels)
         const int texture[2] = { m->base_color_tex.texture, m->metallic_roughness_tex.texture };
         for (int k = 0; k < 2; k++) {
             const int least = k == 0 ? least_alpha(m) : 0;
-            b->of_material[i][k] =
-                texture[k] < 0 ? -1 : copy_of(b, scene->textures + texture[k], least, texels);
-            if (b->of_material[i][k] == -2)
+            b->of_material[i][k] = (lookup){
+                texture[k] < 0 ? -1 : copy_of(b, scene->textures + texture[k], least, texels),
+                ag_scene_uv_moves(scene, i),
+            };
+            if (b->of_material[i][k].copy == -2)
                 return false;
         }
     }
@@ -160,14 +171,18 @@ void ag_blur_destroy(ag_blur *b)
 
 // ---- lookups ----------------------------------------------------------------------
 
-static void look_up(const ag_blur *b, int number, const ag_texture_ref *ref, const float uv[2][2],
+static void look_up(const ag_blur *b, lookup from, const ag_texture_ref *ref, const float uv[2][2],
                     float rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 1;
-    if (number < 0)
+    if (from.copy < 0)
         return;
-    const copy *c = b->copies + number;
+    const copy *c = b->copies + from.copy;
     float at[2], sum[4] = { 0 };
+    if (from.moves) {
+        memcpy(rgb, c->mean, sizeof c->mean);
+        return;
+    }
     ag_tap taps[4];
     ag_texture_place(ref, uv, at);
     const int count = ag_texture_taps(c->of, c->size, at, taps);
@@ -182,10 +197,10 @@ void ag_blur_albedo(const ag_blur *b, int material, const float uv[2][2], const 
                     float albedo[3])
 {
     const ag_material *m = b->materials + material;
-    const int *copies = b->of_material[material];
+    const lookup *lookups = b->of_material[material];
     float base[3], rough_metal[3];
-    look_up(b, copies[0], &m->base_color_tex, uv, base);
-    look_up(b, copies[1], &m->metallic_roughness_tex, uv, rough_metal);
+    look_up(b, lookups[0], &m->base_color_tex, uv, base);
+    look_up(b, lookups[1], &m->metallic_roughness_tex, uv, rough_metal);
     const float metallic = clamp01(m->metallic * rough_metal[2]);
     for (int i = 0; i < 3; i++)
         albedo[i] = clamp01(m->base_color[i] * base[i] * color[i]) * (1 - metallic);

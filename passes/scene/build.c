@@ -141,6 +141,14 @@ static bool skin_moves(const ag_scene_private *p, int skin)
     return false;
 }
 
+static bool mask_moves(const ag_scene_private *p, int primitive)
+{
+    const int material = ((const ag_primitive *) p->primitives.data)[primitive].material;
+    const ag_material *m = (const ag_material *) p->materials.data + material;
+    return m->alpha == AG_ALPHA_MASK && m->base_color_tex.texture >= 0 &&
+           ((const ag_material_drive *) p->drives.data)[material].uv_moves;
+}
+
 static void find_moving(ag_scene_private *p)
 {
     ag_node *nodes = p->nodes.data;
@@ -151,7 +159,8 @@ static void find_moving(ag_scene_private *p)
     ag_instance *instances = p->instances.data;
     for (size_t i = 0; i < p->instances.count; i++)
         instances[i].moving =
-            skins[i] >= 0 ? skin_moves(p, skins[i]) : nodes[instances[i].node].moving;
+            (skins[i] >= 0 ? skin_moves(p, skins[i]) : nodes[instances[i].node].moving) ||
+            mask_moves(p, instances[i].primitive);
     ag_skinned *skinned = p->skinned.data;
     for (size_t i = 0; i < p->skinned.count; i++)
         skinned[i].moving = skin_moves(p, skinned[i].skin);

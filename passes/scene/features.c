@@ -8,10 +8,10 @@
 #define PI 3.14159265358979323846
 
 const char *const ag_feature_names[AG_FEATURE_COUNT] = {
-    "textures",          "alpha mask",   "glossy",         "emissive",     "area light",
-    "moving geometry",   "moving light", "several lights", "point light",  "spot light",
-    "directional light", "skins",        "second uv",      "vertex color", "texture transform",
-    "geometry",          "light",
+    "textures",          "alpha mask",   "glossy",          "emissive",     "area light",
+    "moving geometry",   "moving light", "several lights",  "point light",  "spot light",
+    "directional light", "skins",        "second uv",       "vertex color", "texture transform",
+    "geometry",          "light",        "moving material",
 };
 
 // ---- flux -------------------------------------------------------------------------
@@ -77,10 +77,16 @@ static double texture_mean(const ag_texture *t)
     return fmax(sum[0], fmax(sum[1], sum[2]));
 }
 
+static const ag_material_drive *drive_of(const ag_scene *s, int material)
+{
+    return (const ag_material_drive *) s->priv->drives.data + material;
+}
+
 static double surface_flux(const ag_scene *s, const ag_instance *instance)
 {
-    const ag_material *m = &s->materials[s->primitives[instance->primitive].material];
-    double radiance = largest(m->emissive);
+    const int material = s->primitives[instance->primitive].material;
+    const ag_material *m = &s->materials[material];
+    double radiance = largest(drive_of(s, material)->peak);
     if (radiance > 0 && m->emissive_tex.texture >= 0)
         radiance *= texture_mean(&s->textures[m->emissive_tex.texture]);
     if (!(radiance > 0))
@@ -103,8 +109,10 @@ static bool has_area_light(const ag_scene *s)
 
 // ---- the mask ---------------------------------------------------------------------
 
-static uint64_t material_features(const ag_material *m)
+static uint64_t material_features(const ag_scene *s, int material)
 {
+    const ag_material *m = &s->materials[material];
+    const ag_material_drive *drive = drive_of(s, material);
     const ag_texture_ref *refs[3] = { &m->base_color_tex, &m->metallic_roughness_tex,
                                       &m->emissive_tex };
     uint64_t f = 0;
@@ -115,21 +123,24 @@ static uint64_t material_features(const ag_material *m)
         f |= AG_FEATURE_TEXTURES;
         if (refs[i]->uv == 1)
             f |= AG_FEATURE_SECOND_UV;
-        if (t[0] != 1 || t[1] != 0 || t[2] != 0 || t[3] != 0 || t[4] != 1 || t[5] != 0)
+        if (drive->uv_moves || t[0] != 1 || t[1] != 0 || t[2] != 0 || t[3] != 0 || t[4] != 1 ||
+            t[5] != 0)
             f |= AG_FEATURE_TEXTURE_TRANSFORM;
     }
     if (m->alpha == AG_ALPHA_MASK)
         f |= AG_FEATURE_ALPHA_MASK;
     if (m->metallic > 0 || m->roughness < 1 || m->metallic_roughness_tex.texture >= 0)
         f |= AG_FEATURE_GLOSSY;
-    if (largest(m->emissive) > 0)
+    if (largest(drive->peak) > 0)
         f |= AG_FEATURE_EMISSIVE;
+    if (m->moving)
+        f |= AG_FEATURE_MOVING_MATERIAL;
     return f;
 }
 
 static uint64_t primitive_features(const ag_scene *s, const ag_primitive *p)
 {
-    uint64_t f = material_features(&s->materials[p->material]) | AG_FEATURE_GEOMETRY;
+    uint64_t f = material_features(s, p->material) | AG_FEATURE_GEOMETRY;
     if (p->skinned)
         f |= AG_FEATURE_SKINS;
     for (uint32_t i = 0; i < p->vertex_count; i++) {

@@ -22,10 +22,12 @@ void ag_scene_private_destroy(ag_scene_private *p)
         free(skins[i].inverse_bind);
     }
     ag_array *arrays[] = {
-        &p->vertices,     &p->indices,   &p->primitives, &p->staged,         &p->influences,
-        &p->instances,    &p->materials, &p->textures,   &p->lights,         &p->light_nodes,
-        &p->cameras,      &p->nodes,     &p->channels,   &p->lengths,        &p->skins,
-        &p->camera_nodes, &p->skinned,   &p->rest,       &p->instance_skins, NULL,
+        &p->vertices,   &p->indices,     &p->primitives,     &p->staged,
+        &p->influences, &p->instances,   &p->materials,      &p->textures,
+        &p->lights,     &p->light_nodes, &p->cameras,        &p->nodes,
+        &p->channels,   &p->lengths,     &p->skins,          &p->camera_nodes,
+        &p->skinned,    &p->rest,        &p->instance_skins, &p->drives,
+        NULL,
     };
     for (int i = 0; arrays[i]; i++)
         ag_array_finish(arrays[i]);
@@ -205,10 +207,12 @@ void ag_scene_follow(ag_scene *s, bool first)
     moved = ag_skin_all(s->priv, first) || moved;
     bool lit = follow_lights(s->priv, first);
     follow_cameras(s->priv, first);
+    bool changed = ag_materials_follow(s->priv, first);
     if (moved || first)
         scene_bounds(s);
     s->geometry_revision += moved || first;
     s->light_revision += lit || first;
+    s->material_revision += changed || first;
 }
 
 void ag_scene_set_time(ag_scene *s, double seconds)

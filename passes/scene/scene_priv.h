@@ -42,8 +42,17 @@ typedef struct ag_node {
     double first_world[16]; // at time 0, finite; what stands in where an animation overflows
 } ag_node;
 
+// What a channel drives of a material, beside it.
+typedef struct ag_material_drive {
+    uint8_t driven_paths;          // bit per ag_path
+    bool uv_moves;                 // its textures are elsewhere at other times
+    float peak[3];                 // W/(m^2 sr), at least the most that it ever emits
+    float rest_offset[3][2];       // t2 and t5 of its references, without what drives them
+    double emissive[3], offset[2]; // as posed
+} ag_material_drive;
+
 typedef struct ag_channel {
-    int node;
+    int target; // a node or, for paths of materials, a material
     ag_path path;
     ag_interpolation interpolation;
     int animation;
@@ -91,7 +100,9 @@ struct ag_scene_private {
     ag_array influences;     // ag_influence
     ag_array instances;      // ag_instance
     ag_array instance_skins; // int, -1: none
-    ag_array materials, textures;
+    ag_array materials;      // ag_material
+    ag_array drives;         // ag_material_drive, as materials
+    ag_array textures;
     ag_array lights, light_nodes;   // ag_light, int (-1: no node)
     ag_array cameras, camera_nodes; // ag_camera, int
     ag_array nodes;                 // ag_node
@@ -139,9 +150,13 @@ const char *ag_light_fault(const ag_light *light, bool placed);
 void ag_light_normalize(ag_light *light);
 const char *ag_camera_fault(const ag_camera *camera, bool placed);
 
-// The channel's value at `seconds`: 3 or 4 numbers, a rotation unit.
+// Whether the path is one of materials, not of nodes.
+bool ag_path_of_material(ag_path path);
+// Numbers in a value of the path: 2 to 4.
+int ag_path_size(ag_path path);
+// The channel's value at `seconds`: ag_path_size() numbers, a rotation unit.
 void ag_channel_sample(const ag_channel *c, double seconds, double out[4]);
-// The pose of every driven node at `seconds`.
+// The pose of every driven node and material at `seconds`.
 void ag_animate(ag_scene_private *p, double seconds);
 // Worlds of the moving nodes, or of all when they are computed for the first time.
 void ag_worlds_update(ag_scene_private *p, bool first);
@@ -149,6 +164,13 @@ void ag_worlds_update(ag_scene_private *p, bool first);
 void ag_scene_follow(ag_scene *scene, bool first);
 // Rewrites the vertices of every skinned primitive that moves, `first` of all; true if any changed.
 bool ag_skin_all(ag_scene_private *p, bool first);
+// The texture references of a material, in the order of ag_material_drive.rest_offset.
+void ag_material_refs(ag_material *m, ag_texture_ref *refs[3]);
+// Brings the materials that move, or `first` all that are driven, to their pose; true if any
+// changed.
+bool ag_materials_follow(ag_scene_private *p, bool first);
+// Whether the material's textures are elsewhere at other times.
+bool ag_scene_uv_moves(const ag_scene *scene, int material);
 void ag_primitive_bounds(const ag_scene_private *p, ag_primitive *primitive);
 // Pointers and counts of the public arrays, from the private ones.
 void ag_scene_publish(ag_scene *scene);

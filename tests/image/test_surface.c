@@ -20,7 +20,7 @@ typedef struct square_desc {
     float normal[3];      // zero: +z
 } square_desc;
 
-static ag_scene *square_scene(const square_desc *d)
+static ag_scene *driven_square(const square_desc *d, const ag_channel_desc *channels, int count)
 {
     static const uint32_t indices[] = { 0, 1, 2, 0, 2, 3 };
     static const float xy[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
@@ -58,7 +58,14 @@ static ag_scene *square_scene(const square_desc *d)
     camera.zfar = 4;
     camera.world[14] = 2;
     ag_builder_camera(b, -1, &camera);
+    for (int i = 0; i < count; i++)
+        ag_builder_channel(b, &channels[i]);
     return finish_scene(b);
+}
+
+static ag_scene *square_scene(const square_desc *d)
+{
+    return driven_square(d, NULL, 0);
 }
 
 // red green / blue white, top row first
@@ -357,6 +364,63 @@ static void normals_survive_any_node(void **state)
     }
 }
 
+// ---- materials that move ----------------------------------------------------------------
+
+static ag_scene *moving_square(const square_desc *d)
+{
+    static const float times[] = { 0, 1, 2 }, slide[] = { 0, 0, 0.5f, 0, 0.5f, 0.5f };
+    static const float glow[] = { 0, 0, 0, 0.25f, 0.5f, 1, 0, 0, 0 };
+    const ag_channel_desc channels[] = {
+        { .path = AG_PATH_UV_OFFSET, AG_INTERPOLATE_STEP, 3, times, slide },
+        { .path = AG_PATH_EMISSIVE, AG_INTERPOLATE_STEP, 3, times, glow },
+    };
+    return driven_square(d, channels, FG_COUNT(channels));
+}
+
+// One renderer, so that what it keeps must follow: the atlas' four texels are the frames.
+static void the_picture_follows_a_material_that_moves(void **state)
+{
+    (void) state;
+    static const struct {
+        double time;
+        const char *albedo;
+        float emission[3];
+    } frames[] = { { 0, "100", { 0 } },
+                   { 1, "010", { 0.25f, 0.5f, 1 } },
+                   { 2, "100", { 0 } }, // the loop's end is its beginning
+                   { 5.5, "010", { 0.25f, 0.5f, 1 } },
+                   { 0, "100", { 0 } } };
+    const ag_texture t = four_texels();
+    square_desc d = textured(&t);
+    const float corner[6] = { 0.5f, 0, 0, 0, 0.5f, 0 };
+    memcpy(d.material.base_color_tex.transform, corner, sizeof corner);
+    ag_scene *scene = moving_square(&d);
+    const renderer_desc desc = {
+        .log = test_log(),
+        .device = device(),
+        .scene = scene,
+        .width = SIZE,
+        .height = SIZE,
+        .layers = 1u << LAYER_ALBEDO | 1u << LAYER_RADIANCE,
+    };
+    renderer *r;
+    assert_int_equal(renderer_create(&desc, &r), FG_OK);
+    for (int i = 0; i < FG_COUNT(frames); i++) {
+        image albedo, radiance;
+        assert_int_equal(renderer_frame(r, frames[i].time), FG_OK);
+        assert_int_equal(renderer_read(r, LAYER_ALBEDO, &albedo), FG_OK);
+        assert_int_equal(renderer_read(r, LAYER_RADIANCE, &radiance), FG_OK);
+        for (int p = 0; p < SIZE * SIZE; p += 5)
+            expect_color(&albedo, p % SIZE, p / SIZE, frames[i].albedo);
+        // No light shines: all radiance is the surface's own, and a half float holds it exactly.
+        assert_memory_equal(pixel(&radiance, 3, 4), frames[i].emission, sizeof frames[i].emission);
+        image_finish(&albedo);
+        image_finish(&radiance);
+    }
+    renderer_destroy(r);
+    ag_scene_destroy(scene);
+}
+
 static void expect_host_albedo(const ag_scene *scene, const square_desc *d, const image *img, int x,
                                int y)
 {
@@ -411,6 +475,7 @@ int main(void)
         cmocka_unit_test(many_sizes_are_resampled_and_said_so),
         cmocka_unit_test(metal_of_a_texture_counts_for_vpls),
         cmocka_unit_test(normals_survive_any_node),
+        cmocka_unit_test(the_picture_follows_a_material_that_moves),
         cmocka_unit_test(albedo_agrees_with_the_host),
     };
     return cmocka_run_group_tests(tests, device_setup, device_teardown);

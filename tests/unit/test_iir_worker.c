@@ -181,6 +181,28 @@ static void an_error_comes_out_of_the_next_frame(void **state)
     ag_scene_destroy(scene);
 }
 
+// Slides over what it is put on, and flickers.
+static int moving_material(shapes *s, ag_alpha alpha)
+{
+    static const uint8_t texels[16] = { 255, 0, 0,   255, 0,   255, 0,   0,
+                                        0,   0, 255, 255, 255, 255, 255, 0 };
+    static const float times[] = { 0, 1 }, slide[] = { 0, 0, 1, 1 }, glow[] = { 0, 1, 0, 5, 0, 0 };
+    ag_texture texture = { .name = "texels", .width = 2, .height = 2, .rgba = texels };
+    ag_material m = ag_default_material();
+    m.base_color_tex.texture = ag_builder_texture(s->builder, &texture);
+    m.alpha = alpha;
+    const int material = ag_builder_material(s->builder, &m);
+    ag_channel_desc c = {
+        .path = AG_PATH_UV_OFFSET, .key_count = 2, .times = times, .values = slide
+    };
+    c.material = material;
+    ag_builder_channel(s->builder, &c);
+    c.path = AG_PATH_EMISSIVE;
+    c.values = glow;
+    ag_builder_channel(s->builder, &c);
+    return material;
+}
+
 static ag_scene *room_with_a_moving_wall(void)
 {
     static const float times[] = { 0, 1 }, places[] = { -1, 0, 0, 1, 0, 0 };
@@ -192,6 +214,11 @@ static ag_scene *room_with_a_moving_wall(void)
     shapes_room(&s, white, (float[]){ -1, -1, -1 }, (float[]){ 1, 1, 1 });
     shapes_quad(&s, node, white, (float[]){ 0, -1, -1 }, (float[]){ 0, 2, 0 },
                 (float[]){ 0, 0, 2 });
+    // Before a wall, and a screen in the room whose holes wander.
+    shapes_quad(&s, s.node, moving_material(&s, AG_ALPHA_OPAQUE), (float[]){ -0.9f, -1, -1 },
+                (float[]){ 0, 0, 2 }, (float[]){ 0, 2, 0 });
+    shapes_quad(&s, s.node, moving_material(&s, AG_ALPHA_MASK), (float[]){ -1, -0.5f, -1 },
+                (float[]){ 0, 0, 2 }, (float[]){ 2, 0, 0 });
     ag_builder_channel(s.builder, &channel);
     return shapes_end(&s);
 }

@@ -29,7 +29,7 @@ enum { AG_MAX_FACES = 256, AG_MAX_TEXTURE_BINS = 16 };
 typedef struct ag_gpu_scene_desc {
     const fg_log *log;     // Optional. Borrowed, as all below.
     fg_device *device;     // a gl device, current
-    const ag_scene *scene; // its topology, materials, textures and number of lights are read now
+    const ag_scene *scene; // its topology, textures and how many materials and lights: read now
     uint64_t features; // counted as present beside the scene's own: permutations keep their code
 } ag_gpu_scene_desc;
 

@@ -29,8 +29,8 @@ enum { AG_ISM_MAX_SAMPLES = 1 << 20 };
 // Places `count` samples evenly over the area of the scene's surfaces as they stand, both faces
 // being one. Every aligned run of 2^k samples is itself spread evenly: a triangle that has the
 // fraction f of the area gets 2^k f of them, to less than one either way, and they follow a curve
-// that fills it. Triangles without area get none; a sample where MASK has taken the surface away
-// has instance -1, and so have all where the scene has no area.
+// that fills it. Triangles without area get none; a sample where MASK, as it stands now, has taken
+// the surface away has instance -1, and so have all where the scene has no area.
 //
 // Errors: FG_ERR_INVALID: `count` is no power of two in [1, AG_ISM_MAX_SAMPLES]; FG_ERR_MEMORY.
 // Source: Ritschel et al. 2008, sec. 4.1. Departs from it: a space-filling curve instead of random

@@ -19,7 +19,7 @@ typedef struct ag_rays_desc {
     const ag_scene *scene; // Borrowed while this lives; casts see it as it stands now, so
                            // make new rays after ag_scene_set_time(), unless static_only.
     double origin[3];      // Subtracted from all positions before they become floats: the camera.
-    bool static_only;      // leave moving instances out
+    bool static_only;      // leave moving instances out, those of which the mask moves too
     int threads;           // for building; 0: all
 } ag_rays_desc;
 

@@ -18,8 +18,9 @@ FG_BEGIN
 //
 // Units: metres, right-handed, +Y up; linear RGB (Rec. 709), radiometric.
 // The arrays are the scene's own and read-only to others. ag_scene_set_time()
-// rewrites what can move, in place: worlds, lights, cameras, skinned vertices;
-// what does not move it leaves alone, so that other threads may read it meanwhile.
+// rewrites what can move, in place: worlds, lights, cameras, skinned vertices, and of
+// a material that moves `emissive` and the offsets of its transforms; what does not
+// move it leaves alone, so that other threads may read it meanwhile.
 
 typedef struct ag_vertex { // interleaved as the GPU reads it: 64 bytes
     float position[3];
@@ -44,7 +45,7 @@ typedef struct ag_instance {
     int primitive, node;
     double world[16]; // column-major, node to world
     bool mirrored;    // world has a negative determinant: front faces wind the other way
-    bool moving;      // an animation changes it (transform or skin)
+    bool moving; // an animation changes it: its transform, its skin or where its mask has holes
 } ag_instance;
 
 typedef struct ag_texture_ref {
@@ -68,6 +69,7 @@ typedef struct ag_material {
     ag_alpha alpha;
     float alpha_cutoff;
     bool double_sided; // here: emits from both faces. Surfaces reflect from both anyway.
+    bool moving;       // an animation changes `emissive` or its transforms' offsets, t2 and t5
 } ag_material;
 
 typedef enum ag_wrap {
@@ -123,8 +125,9 @@ typedef enum ag_feature {
     AG_FEATURE_TEXTURES = 1 << 0,
     AG_FEATURE_ALPHA_MASK = 1 << 1,
     AG_FEATURE_GLOSSY = 1 << 2,     // some metallic > 0 or roughness < 1
-    AG_FEATURE_EMISSIVE = 1 << 3,   // some surface emits
-    AG_FEATURE_AREA_LIGHT = 1 << 4, // some emissive primitive gives at least 1 % of all flux
+    AG_FEATURE_EMISSIVE = 1 << 3,   // some surface emits, now or at another time
+    AG_FEATURE_AREA_LIGHT = 1 << 4, // some emissive primitive gives at least 1 % of all flux, each
+                                    // at its brightest
     AG_FEATURE_MOVING_GEOMETRY = 1 << 5,
     AG_FEATURE_MOVING_LIGHT = 1 << 6,
     AG_FEATURE_SEVERAL_LIGHTS = 1 << 7,
@@ -137,8 +140,9 @@ typedef enum ag_feature {
     AG_FEATURE_TEXTURE_TRANSFORM = 1 << 14,
     AG_FEATURE_GEOMETRY = 1 << 15, // there is at least one triangle
     AG_FEATURE_LIGHT = 1 << 16,    // there is at least one punctual light
+    AG_FEATURE_MOVING_MATERIAL = 1 << 17,
 } ag_feature;
-enum { AG_FEATURE_COUNT = 17 };
+enum { AG_FEATURE_COUNT = 18 };
 FG_API extern const char *const ag_feature_names[AG_FEATURE_COUNT];
 
 typedef struct ag_scene_private ag_scene_private; // nodes, animations, skins
@@ -167,7 +171,8 @@ typedef struct ag_scene {
     double time;                   // what set_time was last given
     uint64_t geometry_revision;    // changes when set_time moved a world or a vertex
     uint64_t light_revision;
-    int warning_count; // repairs made while loading
+    uint64_t material_revision; // changes when set_time changed a material
+    int warning_count;          // repairs made while loading
     ag_scene_private *priv;
 } ag_scene;
 
@@ -182,7 +187,7 @@ FG_API FG_NODISCARD fg_status ag_scene_load(const fg_log *log, const char *path,
 FG_API void ag_scene_destroy(ag_scene *scene);
 
 // Puts the scene to `seconds` >= 0: every animation, looped over its own length,
-// then worlds, bounds, lights, cameras and skins. Deterministic: equal times give
+// then worlds, bounds, lights, cameras, skins and materials. Deterministic: equal times give
 // equal bits, whatever came before.
 FG_API void ag_scene_set_time(ag_scene *scene, double seconds);
 
@@ -218,7 +223,8 @@ FG_API ag_camera ag_default_camera(void);
 
 // Pixels are copied. Width and height in [1, 16384].
 FG_API int ag_builder_texture(ag_builder *b, const ag_texture *texture);
-// Factors outside of [0, 1] are clamped with a warning; emission may not be negative.
+// Factors outside of [0, 1] are clamped with a warning; emission may not be negative. `moving` is
+// ignored: channels decide it.
 FG_API int ag_builder_material(ag_builder *b, const ag_material *material);
 
 // A mesh primitive, not yet shown. Arrays are copied; `indices` may be NULL (0, 1, 2, ...).
@@ -265,6 +271,9 @@ typedef enum ag_path {
     AG_PATH_TRANSLATION = 0, // 3 values a key
     AG_PATH_ROTATION,        // 4, quaternions
     AG_PATH_SCALE,           // 3
+    AG_PATH_EMISSIVE,  // 3, W/(m^2 sr), not negative: stands in for ag_material.emissive. Below 0,
+                       // where a cubic may swing, is 0.
+    AG_PATH_UV_OFFSET, // 2, added to t2 and t5 of every texture reference of the material
 } ag_path;
 typedef enum ag_interpolation {
     AG_INTERPOLATE_LINEAR = 0, // slerp for rotations
@@ -272,16 +281,17 @@ typedef enum ag_interpolation {
     AG_INTERPOLATE_CUBIC, // three values a key: in-tangent, value, out-tangent
 } ag_interpolation;
 typedef struct ag_channel_desc {
-    int node;
+    int node; // of translations, rotations and scales
     ag_path path;
     ag_interpolation interpolation;
     int key_count;
     const float *times; // seconds, increasing, >= 0
     const float *values;
     int animation; // [0, 1000000): channels of one number loop over their longest together
+    int material;  // of emission and offsets; `node` is ignored then
 } ag_channel_desc;
-// A path of a node that is driven already stays as it is, with a warning; a node with a matrix
-// cannot be driven.
+// A path of a node or material that is driven already stays as it is, with a warning; a node with a
+// matrix cannot be driven.
 FG_API void ag_builder_channel(ag_builder *b, const ag_channel_desc *channel);
 
 // Finishes: `*out` owns everything, the builder stays to be destroyed. The scene

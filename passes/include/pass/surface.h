@@ -41,7 +41,8 @@ FG_API bool ag_surface_masked(const ag_scene *scene, const ag_material *material
 // Of each texture a copy is kept, of at most `texels` along its longer edge and in proportion along
 // the other; a smaller one as it is. Each texel of it is the mean, in linear light, of what it
 // covers; of a texture that masks, of what is there of it. Lookups are bilinear, also of textures
-// that are not.
+// that are not. Where an animation moves the texture the lookup is its mean over all texels, at any
+// time: what asks outlives the motion.
 //
 // Owner:  materials and textures of the scene are borrowed while this lives.
 // Errors: FG_ERR_INVALID for less than one texel; FG_ERR_MEMORY.
