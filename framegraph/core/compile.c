@@ -48,6 +48,7 @@ void fg_graph_destroy(fg_graph *g)
     for (uint32_t i = 0; i < g->off_count; i++)
         fg_release(&a, g->off[i]);
     fg_release(&a, g->off);
+    fg_release(&a, g->name);
     fg_release(&a, g->table);
     fg_release(&a, g->stack);
     fg_release(&a, g->last);
@@ -176,6 +177,7 @@ fg_status fg_graph_compile(fg_graph *g)
     if (status == FG_OK && !equal)
         status = build(g);
     g->declaring = false;
+    g->prefix_length = 0;
     if (status != FG_OK)
         return status;
     if (equal)

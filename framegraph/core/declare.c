@@ -103,6 +103,37 @@ static bool may_declare(fg_graph *g, const char *what, const char *name)
     return true;
 }
 
+void fg_prefix(fg_graph *g, const char *prefix)
+{
+    if (!may_declare(g, "graph", "fg_prefix()"))
+        return;
+    prefix = prefix ? prefix : "";
+    const size_t length = strlen(prefix);
+    if (length >= sizeof g->prefix || strchr(prefix, '.')) {
+        fg_decl_fail(g, FG_ERR_INVALID,
+                     "fg_prefix(): '%s' must have at most %d bytes and no '.' among them", prefix,
+                     (int) sizeof g->prefix - 1);
+        return;
+    }
+    memcpy(g->prefix, prefix, length + 1);
+    g->prefix_length = (uint32_t) length;
+}
+
+const char *fg_decl_name(fg_graph *g, const char *name)
+{
+    if (!g->prefix_length || !name || !*name)
+        return name;
+    const size_t length = strlen(name) + 1;
+    if (!GROW(g, g->name, g->name_cap, g->prefix_length + length)) {
+        fg_decl_fail(g, FG_ERR_MEMORY, "graph: out of memory while declaring '%s%s'", g->prefix,
+                     name);
+        return name;
+    }
+    memcpy(g->name, g->prefix, g->prefix_length);
+    memcpy(g->name + g->prefix_length, name, length);
+    return g->name;
+}
+
 void fg_graph_begin(fg_graph *g, const fg_frame_desc *desc)
 {
     static const fg_frame_desc none = { 0 };
@@ -117,6 +148,7 @@ void fg_graph_begin(fg_graph *g, const fg_frame_desc *desc)
     g->features = desc->features;
     g->feature_names = desc->feature_names;
     g->feature_count = desc->feature_names ? desc->feature_count : 0;
+    g->prefix_length = 0;
     g->declaring = true;
     g->last_known = false;
     g->epoch++;
@@ -282,6 +314,7 @@ static bool texture_record(fg_graph *g, const char *name, const fg_tex_desc *des
 fg_res fg_texture(fg_graph *g, const char *name, const fg_tex_desc *desc)
 {
     res_rec r = { .import = NONE };
+    name = fg_decl_name(g, name);
     if (!may_declare(g, "texture", name) || !texture_record(g, name, desc, &r))
         return (fg_res){ 0 };
     return add_resource(g, name, &r);
@@ -290,6 +323,7 @@ fg_res fg_texture(fg_graph *g, const char *name, const fg_tex_desc *desc)
 fg_res fg_buffer(fg_graph *g, const char *name, const fg_buf_desc *desc)
 {
     res_rec r = { .import = NONE };
+    name = fg_decl_name(g, name);
     if (!may_declare(g, "buffer", name) || !buffer_shape(g, name, desc, &r))
         return (fg_res){ 0 };
     return add_resource(g, name, &r);
@@ -318,6 +352,7 @@ static fg_res add_import(fg_graph *g, const char *name, res_rec *r, uint32_t obj
 fg_res fg_import_texture(fg_graph *g, const char *name, const fg_tex_desc *desc, uint32_t object)
 {
     res_rec r = { .import = NONE };
+    name = fg_decl_name(g, name);
     if (!may_declare(g, "texture", name) || !texture_shape(g, name, desc, &r))
         return (fg_res){ 0 };
     return add_import(g, name, &r, object);
@@ -326,6 +361,7 @@ fg_res fg_import_texture(fg_graph *g, const char *name, const fg_tex_desc *desc,
 fg_res fg_import_buffer(fg_graph *g, const char *name, const fg_buf_desc *desc, uint32_t object)
 {
     res_rec r = { .import = NONE };
+    name = fg_decl_name(g, name);
     if (!may_declare(g, "buffer", name) || !buffer_shape(g, name, desc, &r))
         return (fg_res){ 0 };
     return add_import(g, name, &r, object);

@@ -193,6 +193,13 @@ void fg_passes(fg_graph *g, const fg_pass_desc *passes, int count)
                                 : "outside a declaration, call fg_graph_begin()");
         return;
     }
-    for (int i = 0; i < count; i++)
-        add_pass(g, &passes[i]);
+    for (int i = 0; i < count; i++) {
+        if (g->prefix_length) {
+            fg_pass_desc named = passes[i];
+            named.name = fg_decl_name(g, named.name);
+            add_pass(g, &named);
+        } else {
+            add_pass(g, &passes[i]);
+        }
+    }
 }

@@ -280,6 +280,11 @@ struct fg_graph {
     decl decls[2];
     plan plans[2];
 
+    char prefix[32]; // of names in the open declaration
+    uint32_t prefix_length;
+    char *name; // scratch: a name with its prefix
+    uint32_t name_cap;
+
     bool declaring, running, compiled;
     bool disturbed;        // something was declared while it ran
     bool bound;            // the plan has its objects
@@ -378,6 +383,8 @@ static inline bool io_overlap(const io_rec *a, const io_rec *b)
 void fg_decl_fail(fg_graph *g, fg_status status, const char *fmt, ...) FG_PRINTF(3, 4);
 // Logs a call that is not allowed now; the declaration takes no harm. FG_ERR_INVALID.
 fg_status fg_misuse(fg_graph *g, const char *call, const char *rule);
+// `name` behind the prefix of the open declaration, until the next call; `name` itself without one.
+const char *fg_decl_name(fg_graph *g, const char *name);
 // Appends a string to the text of the open declaration; 0 when out of memory.
 uint32_t fg_decl_text(fg_graph *g, const char *text, size_t length);
 void fg_decl_reset(decl *d);

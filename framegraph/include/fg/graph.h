@@ -111,6 +111,19 @@ FG_API fg_res fg_last_frame(fg_graph *g, fg_res res);
 // does not know: what a shader wrote as image or storage needs the host's glMemoryBarrier() first.
 FG_API void fg_export(fg_graph *g, fg_res res);
 
+// Begins the names of passes and resources declared from here on, so that one piece of code can be
+// declared twice in a frame:
+//
+//     fg_prefix(g, "b:");
+//     declare_technique(other, g);   // passes "b:rsm.map", ..., buffers "b:rsm.vpls", ...
+//     fg_prefix(g, "");
+//
+// "" or NULL ends it, and so does the end of the declaration. Everything shows the longer name:
+// messages, dumps, timings, histories, fg_pass_enable(), FG_EFFECT_INTERNAL's groups. What the host
+// declared before keeps its name. At most 31 bytes, and no '.', which would make one group of all
+// groups.
+FG_API void fg_prefix(fg_graph *g, const char *prefix);
+
 // ---- passes ----------------------------------------------------------------
 
 // How a pass touches a resource. DEFAULT: textures are sampled when read; when
