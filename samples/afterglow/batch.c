@@ -54,6 +54,7 @@ static fg_status take_pictures(batch *b)
     renderer *r = NULL;
     renderer_desc desc = host_renderer_desc(b->h, &none, b->width, b->height);
     desc.layers = 1u << LAYER_INDIRECT;
+    desc.strict = true; // figures of direct light under a plugin's name are none
     fg_status status = host_renderer(b->h, &desc, &r);
     for (int k = 0; k < b->count && status == FG_OK; ++k) {
         image result = { 0 };
@@ -115,7 +116,8 @@ static fg_status measure_time(batch *b)
 {
     const setting none = { 0 };
     renderer *r = NULL;
-    const renderer_desc desc = host_renderer_desc(b->h, &none, b->width, b->height);
+    renderer_desc desc = host_renderer_desc(b->h, &none, b->width, b->height);
+    desc.strict = true;
     fg_status status = host_renderer(b->h, &desc, &r);
     for (int v = 0; v < b->budget->visits && status == FG_OK; ++v)
         for (int k = 0; k < b->count && status == FG_OK; ++k) {

@@ -28,7 +28,7 @@ static int dump(host *h, const setting *s, fg_dump format)
     // A frame has to run: graphs are compiled by frames, and a trace needs times.
     fg_status status = host_renderer(h, &desc, &r);
     if (status == FG_OK)
-        status = renderer_frame(r, 0);
+        status = host_frame(h, r, 0);
     if (status == FG_OK)
         status = fg_gl_finish(h->device);
     char *text = status == FG_OK ? fg_graph_dump(renderer_graph(r), format) : NULL;

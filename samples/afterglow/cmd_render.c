@@ -6,11 +6,11 @@
 #include <string.h>
 
 // Frames 0 to `last`, 1/60 s apart.
-static fg_status run_frames(renderer *r, int last)
+static fg_status run_frames(host *h, renderer *r, int last)
 {
     fg_status status = FG_OK;
     for (int i = 0; i <= last && status == FG_OK; ++i) {
-        status = renderer_frame(r, i / 60.0);
+        status = host_frame(h, r, i / 60.0);
         if (last > 0)
             cli_progress("frames", (i + 1.0) / (last + 1.0));
     }
@@ -27,6 +27,14 @@ static fg_status write_stats(host *h, renderer *r, const renderer_desc *desc, in
     fg_status status = timing_create(frames, &t);
     if (status == FG_OK)
         status = timing_run(&t, h->device, r, frame, frames);
+    if (status == FG_OK && !h->fell_back && renderer_fault(r)) { // now they are of direct light
+        cli_forgive(h->c);
+        h->fell_back = true;
+        timing_finish(&t);
+        status = timing_create(frames, &t);
+        if (status == FG_OK)
+            status = timing_run(&t, h->device, r, frame + 1 + frames, frames);
+    }
     if (status == FG_OK) {
         record = record_create(h, r, &s, &t, desc->width, desc->height);
         status = record ? record_write(&h->c->log, record, h->o->stats) : FG_ERR_MEMORY;
@@ -46,7 +54,7 @@ static int render(host *h, const setting *s)
     desc.layers = 1u << s->layer;
     fg_status status = host_renderer(h, &desc, &r);
     if (status == FG_OK)
-        status = run_frames(r, frame);
+        status = run_frames(h, r, frame);
     if (status == FG_OK)
         status = renderer_read(r, s->layer, &picture);
     // The picture is written last: with its figures or not at all.

@@ -17,7 +17,18 @@ static fg_status write_frame(host *h, renderer *r, renderer_layer layer, int fra
     return status;
 }
 
-static int render(host *h, const setting *settings, int count)
+// A plugin that was at fault has no more turns: direct light takes them.
+static void rest(host *h, setting *s)
+{
+    const renderer_layer layer = s->layer;
+    if (!h->fell_back)
+        return;
+    setting_finish(s);
+    s->layer = layer;
+    h->fell_back = false;
+}
+
+static int render(host *h, setting *settings, int count)
 {
     const int width = h->o->width ? h->o->width : 512, height = h->o->height ? h->o->height : 512;
     renderer *r = NULL;
@@ -25,15 +36,16 @@ static int render(host *h, const setting *settings, int count)
     desc.layers = 1u << settings[0].layer;
     fg_status status = host_renderer(h, &desc, &r);
     for (int i = 0; i < h->o->frames && status == FG_OK; ++i) {
-        const setting *s = &settings[i % count];
+        setting *s = &settings[i % count];
         if (i > 0 && count > 1)
             status = host_switch(h, r, s);
         if (status == FG_OK)
             status = renderer_set_layers(r, 1u << s->layer);
         if (status == FG_OK)
-            status = renderer_frame(r, i / 60.0);
+            status = host_frame(h, r, i / 60.0);
         if (status == FG_OK)
             status = write_frame(h, r, s->layer, i);
+        rest(h, s);
         cli_progress("frames", (i + 1.0) / h->o->frames);
     }
     renderer_destroy(r);

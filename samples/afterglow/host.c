@@ -427,6 +427,16 @@ fg_status host_switch(host *h, renderer *r, const setting *s)
     return FG_OK;
 }
 
+fg_status host_frame(host *h, renderer *r, double time)
+{
+    const fg_status status = renderer_frame(r, time);
+    if (status == FG_OK && renderer_fault(r) && !h->fell_back) {
+        cli_forgive(h->c); // what the device has said, of a shader for one
+        h->fell_back = true;
+    }
+    return status;
+}
+
 // Frames are lit by punctual lights; what surfaces send is for plugins that ask for it.
 static void warn_dark(host *h, const gi_plugin *plugin)
 {

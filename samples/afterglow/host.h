@@ -34,7 +34,7 @@ typedef struct host {
     bool dark_said; // the warning that surfaces alone shine, once a scene
     bool as_it_is;  // host_open_scene() adds no default light
     bool hot;       // plugins can be loaded again: set before host_open_registry()
-    bool fell_back; // the plugin failed in create: direct light goes on alone
+    bool fell_back; // the plugin failed: direct light goes on alone
     bool refused;   // a module that was asked for was refused: nobody knows its parameters
 } host;
 
@@ -74,6 +74,8 @@ renderer_desc host_renderer_desc(const host *h, const setting *s, int width, int
 FG_NODISCARD fg_status host_renderer(host *h, const renderer_desc *desc, renderer **out);
 // Likewise between two frames.
 FG_NODISCARD fg_status host_switch(host *h, renderer *r, const setting *s);
+// renderer_frame(), and `fell_back` where the plugin was at fault; the renderer has warned.
+FG_NODISCARD fg_status host_frame(host *h, renderer *r, double time);
 
 image_kind host_layer_kind(renderer_layer layer);
 // -o: there, with an extension of a picture where `picture`, and writable.

@@ -239,7 +239,7 @@ cJSON *record_create(const host *h, renderer *r, const setting *s, const timing 
     const setting none = { 0 };
 
     cJSON *record = cJSON_CreateObject(), *cpu = cJSON_CreateObject();
-    if (h->fell_back)
+    if (h->fell_back || renderer_fault(r))
         s = &none;
     add_number(cpu, "median", timing_quantile(t->cpu, t->count, 0.5));
     cJSON_AddItemToObject(record, "device", record_device(h));

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "renderer.h"
+#include "renderer_priv.h"
 
-#include <epoxy/gl.h>
-#include <pass/gbuffer.h>
-#include <pass/lighting.h>
-#include <pass/post.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,33 +9,35 @@ const char *const renderer_layer_names[LAYER_COUNT] = {
     "final", "radiance", "direct", "indirect", "albedo", "normal", "position",
 };
 
-struct renderer {
-    renderer_desc desc; // `values` and `camera` point to what is borrowed no longer: unused
-    uint64_t features;
-    ag_gpu_scene *gpu;
-    fg_graph *graph;
-    ag_camera camera; // when the scene's own is not followed
-    bool follows;
-    ag_view view;
-    uint64_t frames; // since the plugin was created
+// ---- what is said ----------------------------------------------------------------------------
 
-    const gi_plugin *plugin;
-    void *self;
-
-    bool declared;
-    ag_gbuffer_pass gbuffer;
-    ag_shadow_pass shadow;
-    ag_direct_pass direct;
-    ag_compose_pass compose, indirect;
-    ag_tone_pass tone;
-    fg_res layers[LAYER_END];
-};
+// While a frame is tried an error may be a plugin's, which is no error of the frame.
+static void hear(void *user, fg_log_level level, const char *msg)
+{
+    renderer *r = user;
+    if (level == FG_LOG_ERROR && !r->heard[0])
+        snprintf(r->heard, sizeof r->heard, "%s", msg);
+    fg_logf(r->desc.log, level == FG_LOG_ERROR && r->trying ? FG_LOG_INFO : level, "%s", msg);
+}
 
 static fg_status refuse(const renderer_desc *desc, const char *what)
 {
     fg_logf(desc->log, FG_LOG_ERROR, "renderer: %s", what);
     return FG_ERR_INVALID;
 }
+
+static fg_status out_of_memory(const renderer_desc *desc)
+{
+    fg_logf(desc->log, FG_LOG_ERROR, "renderer: out of memory");
+    return FG_ERR_MEMORY;
+}
+
+static void note_fault(renderer *r, const gi_plugin *plugin, const char *where, const char *why)
+{
+    snprintf(r->fault, sizeof r->fault, "plugin '%s' failed %s: %s", plugin->name, where, why);
+}
+
+// ---- life ------------------------------------------------------------------------------------
 
 static fg_status check(const renderer_desc *desc)
 {
@@ -78,7 +76,7 @@ static fg_status create_parts(renderer *r)
     };
     const fg_graph_desc graph = {
         .device = d->device,
-        .log = d->log,
+        .log = &r->log,
         .debug = d->debug,
         .seed = d->seed,
         .inspect = d->inspect,
@@ -99,13 +97,12 @@ fg_status renderer_create(const renderer_desc *desc, renderer **out)
     if (status)
         return status;
     renderer *r = calloc(1, sizeof *r);
-    if (!r) {
-        fg_logf(desc->log, FG_LOG_ERROR, "renderer: out of memory");
-        return FG_ERR_MEMORY;
-    }
+    if (!r)
+        return out_of_memory(desc);
     r->desc = *desc;
-    if (r->desc.layers == 0)
-        r->desc.layers = 1u << LAYER_FINAL;
+    r->log = (fg_log){ hear, r, desc->log ? desc->log->level : FG_LOG_ERROR };
+    r->sides = 1;
+    r->side[0].layers = desc->layers ? desc->layers : 1u << LAYER_FINAL;
     choose_camera(r);
     status = create_parts(r);
     if (!status && desc->plugin)
@@ -118,13 +115,17 @@ fg_status renderer_create(const renderer_desc *desc, renderer **out)
     return FG_OK;
 }
 
-static void drop_plugin(renderer *r)
+static void drop_plugin(renderer *r, branch *b)
 {
-    if (r->plugin)
-        r->plugin->destroy(r->self);
-    r->plugin = NULL;
-    r->self = NULL;
+    if (b->plugin)
+        b->plugin->destroy(b->self);
+    free(b->values);
+    b->plugin = NULL;
+    b->self = NULL;
+    b->values = NULL;
+    b->dropped = false;
     r->declared = false;
+    r->trim_due = true;
 }
 
 void renderer_destroy(renderer *r)
@@ -132,51 +133,119 @@ void renderer_destroy(renderer *r)
     if (!r)
         return;
     fg_graph_destroy(r->graph); // before what its callbacks point to
-    drop_plugin(r);
+    for (int i = 0; i < SIDES; i++)
+        drop_plugin(r, &r->side[i]);
     ag_gpu_scene_destroy(r->gpu);
     free(r);
 }
 
-fg_status renderer_set_plugin(renderer *r, const gi_plugin *plugin, const gi_value *values)
+// ---- between frames --------------------------------------------------------------------------
+
+static fg_status start_plugin(renderer *r, branch *b, const gi_plugin *plugin, gi_value *values)
 {
     const gi_env env = {
-        .log = r->desc.log,
+        .log = &r->log,
         .device = r->desc.device,
         .scene = r->desc.scene,
         .gpu_scene = r->gpu,
     };
-    gi_value *defaults = NULL;
-    fg_status status = FG_OK;
-    if (plugin && !values) {
-        defaults = calloc((size_t) gi_params_count(plugin) + 1, sizeof *defaults);
-        if (!defaults)
-            return FG_ERR_MEMORY;
-        gi_params_default(plugin, defaults);
-        values = defaults;
+    drop_plugin(r, b);
+    r->heard[0] = 0;
+    const fg_status status = plugin->create(&env, values, &b->self);
+    b->frames = 0;
+    b->dropped = status != FG_OK;
+    if (status) {
+        b->self = NULL;
+        note_fault(r, plugin, "to start", r->heard[0] ? r->heard : fg_status_name(status));
+        return status;
     }
-    const bool kept = plugin && plugin == r->plugin && plugin->set;
-    if (!kept || plugin->set(r->self, values) != FG_OK) {
-        drop_plugin(r);
-        if (plugin)
-            status = plugin->create(&env, values, &r->self);
-        r->plugin = status || !plugin ? NULL : plugin;
-        r->frames = 0;
-    }
+    b->plugin = plugin;
+    b->values = values;
+    return FG_OK;
+}
+
+// A copy of the values, or the defaults.
+static gi_value *copy_values(const gi_plugin *plugin, const gi_value *values)
+{
+    const size_t count = (size_t) gi_params_count(plugin);
+    gi_value *own = calloc(count + 1, sizeof *own);
+    if (own && values)
+        memcpy(own, values, count * sizeof *own);
+    else if (own)
+        gi_params_default(plugin, own);
+    return own;
+}
+
+// Gives a side another plugin or other values.
+static fg_status set_side(renderer *r, branch *b, const gi_plugin *plugin, const gi_value *values)
+{
+    r->fault[0] = 0;
     r->declared = false;
-    free(defaults);
+    if (!plugin) {
+        drop_plugin(r, b);
+        return FG_OK;
+    }
+    gi_value *own = copy_values(plugin, values);
+    if (!own)
+        return out_of_memory(&r->desc);
+    if (plugin == b->plugin && plugin->set && plugin->set(b->self, own) == FG_OK) {
+        free(b->values);
+        b->values = own;
+        return FG_OK;
+    }
+    const fg_status status = start_plugin(r, b, plugin, own);
+    if (status)
+        free(own);
     return status;
 }
 
-fg_status renderer_set_layers(renderer *r, unsigned layers)
+fg_status renderer_set_plugin(renderer *r, const gi_plugin *plugin, const gi_value *values)
+{
+    return set_side(r, &r->side[0], plugin, values);
+}
+
+static fg_status set_layers(renderer *r, branch *b, unsigned layers)
 {
     if (layers >> LAYER_END)
         return refuse(&r->desc, "there is no such layer");
     if (layers == 0)
         layers = 1u << LAYER_FINAL;
-    if (layers != r->desc.layers)
+    if (layers != b->layers)
         r->declared = false;
-    r->desc.layers = layers;
+    b->layers = layers;
     return FG_OK;
+}
+
+fg_status renderer_set_layers(renderer *r, unsigned layers)
+{
+    return set_layers(r, &r->side[0], layers);
+}
+
+fg_status renderer_set_split(renderer *r, const renderer_side *second)
+{
+    branch *b = &r->side[1];
+    const int sides = second ? 2 : 1;
+    if (sides != r->sides)
+        r->declared = false;
+    r->sides = sides;
+    if (!second) {
+        if (b->plugin)
+            drop_plugin(r, b);
+        b->dropped = false;
+        return FG_OK;
+    }
+    const fg_status status = set_layers(r, b, second->layers);
+    if (status)
+        return status;
+    gi_value *values = second->plugin ? copy_values(second->plugin, second->values) : NULL;
+    if (second->plugin && !values)
+        return out_of_memory(&r->desc);
+    const bool same =
+        second->plugin == b->plugin &&
+        (!values ||
+         !memcmp(values, b->values, (size_t) gi_params_count(second->plugin) * sizeof *values));
+    free(values);
+    return same && !b->dropped ? FG_OK : set_side(r, b, second->plugin, second->values);
 }
 
 fg_status renderer_resize(renderer *r, int width, int height)
@@ -198,216 +267,138 @@ void renderer_set_camera(renderer *r, const ag_camera *camera)
     r->follows = false;
 }
 
-// ---- declaring ----------------------------------------------------------------------------
-
-static fg_status never_run(const fg_run *run, void *user)
+fg_status renderer_set_exposure(renderer *r, float exposure)
 {
-    (void) run;
-    (void) user;
-    return FG_ERR_INVALID;
+    if (!(exposure >= 0))
+        return refuse(&r->desc, "exposure must not be negative");
+    r->desc.exposure = exposure;
+    for (int i = 0; i < r->sides; i++)
+        r->side[i].tone.exposure = exposure > 0 ? exposure : 1;
+    return FG_OK;
 }
 
-static void declare_plugin(renderer *r, const ag_scene_res *scene, gi_outputs *out)
-{
-    const gi_inputs in = {
-        .width = r->desc.width,
-        .height = r->desc.height,
-        .gbuffer = r->gbuffer.out,
-        .scene = *scene,
-        .direct = r->direct.out,
-    };
-    if (!r->plugin)
-        return;
-    if (!(r->plugin->needs & ~r->features)) {
-        r->plugin->declare(r->self, r->graph, &in, out);
-        return;
-    }
-    // A pass that stands for the whole technique, so that the graph lists it with the reason.
-    char name[64];
-    snprintf(name, sizeof name, "%s.technique", r->plugin->name);
-    const fg_pass_desc absent = {
-        .name = name,
-        .effect = FG_EFFECT_EXTERNAL,
-        .needs = r->plugin->needs,
-        .run = never_run,
-    };
-    fg_passes(r->graph, &absent, 1);
-}
+// ---- a frame ---------------------------------------------------------------------------------
 
-static void declare_output(renderer *r, const ag_scene_res *scene, const gi_outputs *gi)
+// Goes on without the plugins of these sides (a bit each). `why` of each, or NULL: what was heard.
+static void drop_sides(renderer *r, unsigned sides, const char *where, const char *const *why)
 {
-    const ag_compose_pass sum = {
-        .view = scene->view,
-        .direct = r->direct.out,
-        .albedo = r->gbuffer.out.albedo,
-        .indirect = gi->indirect,
-        .glossy = gi->glossy,
-    };
-    r->compose = r->indirect = sum;
-    r->indirect.direct = (fg_res){ 0 };
-    ag_compose_declare(&r->compose, r->graph, "frame.compose", "frame.radiance");
-    ag_compose_declare(&r->indirect, r->graph, "frame.indirect", "frame.indirect_radiance");
-    r->tone.exposure = r->desc.exposure > 0 ? r->desc.exposure : 1;
-    r->tone.radiance = r->compose.out;
-    ag_tone_declare(&r->tone, r->graph, "frame.tone", "frame.display");
-}
-
-// For messages: "direct", "isr.level".
-static const char *layer_name(const renderer *r, renderer_layer layer, char *text, size_t size)
-{
-    const int i = (int) layer - (int) LAYER_PLUGIN;
-    if (layer < LAYER_COUNT)
-        return renderer_layer_names[layer];
-    if (r->plugin && i < gi_layers_count(r->plugin))
-        snprintf(text, size, "%s.%s", r->plugin->name, r->plugin->layers[i].name);
-    else
-        snprintf(text, size, "%d of %s", i,
-                 r->plugin ? r->plugin->name : "a plugin that does not run");
-    return text;
-}
-
-static void export_layers(renderer *r)
-{
-    char name[64];
-    for (int i = 0; i < LAYER_END; i++) {
-        if (!(r->desc.layers & 1u << i))
+    for (int i = 0; i < r->sides; i++) {
+        branch *b = &r->side[i];
+        if (!(sides >> i & 1))
             continue;
-        if (i < LAYER_COUNT || r->layers[i].id)
-            fg_export(r->graph, r->layers[i]);
-        else
-            fg_fail(r->graph, "layer %s: is not there in this scene, at these settings",
-                    layer_name(r, (renderer_layer) i, name, sizeof name));
+        note_fault(r, b->plugin, where, why[i]);
+        fg_logf(r->desc.log, FG_LOG_WARN, "%s; direct light alone", r->fault);
+        drop_plugin(r, b);
+        b->dropped = true;
     }
 }
 
-static fg_status declare(renderer *r)
+static fg_status update_plugins(renderer *r, double time)
 {
-    fg_graph *g = r->graph;
-    const fg_frame_desc frame = {
-        .width = r->desc.width,
-        .height = r->desc.height,
-        .features = r->features,
-        .feature_names = ag_feature_names,
-        .feature_count = AG_FEATURE_COUNT,
-    };
-    gi_outputs gi = { 0 };
-    fg_graph_begin(g, &frame);
-    const ag_scene_res scene = ag_gpu_scene_import(r->gpu, g);
-    ag_gbuffer_declare(&r->gbuffer, g, r->gpu, &scene);
-    ag_shadow_declare(&r->shadow, g, r->gpu, &scene, r->desc.shadow_size);
-    const ag_direct_desc direct = { &scene, &r->gbuffer.out, r->shadow.maps, r->desc.shadow_taps };
-    ag_direct_declare(&r->direct, g, r->gpu, &direct);
-    declare_plugin(r, &scene, &gi);
-    declare_output(r, &scene, &gi);
-    const fg_res layers[] = {
-        [LAYER_FINAL] = r->tone.out,
-        [LAYER_RADIANCE] = r->compose.out,
-        [LAYER_DIRECT] = r->direct.out,
-        [LAYER_INDIRECT] = r->indirect.out,
-        [LAYER_ALBEDO] = r->gbuffer.out.albedo,
-        [LAYER_NORMAL] = r->gbuffer.out.normal,
-        [LAYER_POSITION] = r->gbuffer.out.position,
-    };
-    memcpy(r->layers, layers, sizeof layers);
-    memcpy(r->layers + LAYER_PLUGIN, gi.layers, sizeof gi.layers);
-    export_layers(r);
-    const fg_status status = fg_graph_compile(g);
-    r->declared = status == FG_OK;
-    return status;
+    for (int i = 0; i < r->sides; i++) {
+        branch *b = &r->side[i];
+        if (!b->plugin || !b->plugin->update)
+            continue;
+        const gi_frame frame = { .view = &r->view, .index = b->frames, .time = time };
+        r->heard[0] = 0;
+        r->trying = !r->desc.strict;
+        const fg_status status = b->plugin->update(b->self, &frame);
+        r->trying = false;
+        if (status && r->desc.strict)
+            return status;
+        const char *const heard = r->heard[0] ? r->heard : fg_status_name(status);
+        const char *const why[SIDES] = { heard, heard };
+        if (status)
+            drop_sides(r, 1u << i, "in update", why);
+    }
+    return FG_OK;
+}
+
+// Declares, if need be, and runs the frame without the plugins of the sides whose bit is set.
+static fg_status attempt(renderer *r, unsigned without)
+{
+    fg_status status = FG_OK;
+    r->heard[0] = 0;
+    for (int i = 0; i < r->sides; i++) {
+        const bool muted = without >> i & 1;
+        r->declared = r->declared && muted == r->side[i].muted;
+        r->side[i].muted = muted;
+    }
+    if (!r->declared) {
+        status = renderer_declare(r);
+        // Now the graph knows what it still needs; the new memory is not there yet.
+        if (!status && (r->trim_due || without)) {
+            fg_graph_trim(r->graph);
+            r->trim_due = false;
+        }
+    }
+    return status ? status : fg_graph_run(r->graph);
+}
+
+// A frame that fails is tried without one plugin, the other, both: what makes it succeed was at
+// fault.
+static fg_status run_frame(renderer *r)
+{
+    static const unsigned trials[] = { 0, 2, 1, 3 };
+    char heard[4][sizeof r->heard] = { "" };
+    unsigned live = 0, without = 0;
+    fg_status status = FG_OK, first = FG_OK;
+    r->layer_failed = false;
+    for (int i = 0; i < r->sides; i++)
+        live |= r->side[i].plugin ? 1u << i : 0;
+    r->trying = live && !r->desc.strict;
+    for (int i = 0; i < FG_COUNT(trials); i++) {
+        if (trials[i] & ~(r->trying ? live : 0))
+            continue;
+        without = trials[i];
+        status = attempt(r, without);
+        first = without ? first : status;
+        if (!status || r->layer_failed)
+            break;
+        snprintf(heard[without], sizeof heard[0], "%s",
+                 r->heard[0] ? r->heard : fg_status_name(status));
+    }
+    const bool tried = r->trying;
+    r->trying = false;
+    for (int i = 0; i < r->sides; i++)
+        r->side[i].muted = false;
+    if (!status) {
+        const char *const why[SIDES] = { heard[without == 3 ? 2 : 0], heard[without == 3 ? 1 : 0] };
+        if (without) {
+            drop_sides(r, without, "in its frame", why);
+            r->declared = true; // as it ran, and trimmed
+            r->trim_due = false;
+        }
+        return FG_OK;
+    }
+    r->declared = false;
+    if (tried && !r->layer_failed)
+        fg_logf(r->desc.log, FG_LOG_ERROR, "%s", heard[0]);
+    return first;
 }
 
 fg_status renderer_frame(renderer *r, double time)
 {
     ag_scene *scene = r->desc.scene;
-    fg_status status = FG_OK;
     if (time != scene->time)
         ag_scene_set_time(scene, time);
     const ag_camera *camera = r->follows ? &scene->cameras[r->desc.camera_index] : &r->camera;
-    status = ag_view_from_camera(r->desc.log, camera, r->desc.width, r->desc.height, &r->view);
+    fg_status status =
+        ag_view_from_camera(r->desc.log, camera, r->desc.width, r->desc.height, &r->view);
     if (!status)
         status = ag_gpu_scene_update(r->gpu, &r->view);
-    const gi_frame frame = { .view = &r->view, .index = r->frames, .time = time };
-    if (!status && r->plugin && r->plugin->update)
-        status = r->plugin->update(r->self, &frame);
-    if (!status && !r->declared)
-        status = declare(r);
     if (!status)
-        status = fg_graph_run(r->graph);
-    r->frames++;
+        status = update_plugins(r, time);
+    if (!status)
+        status = run_frame(r);
+    for (int i = 0; i < r->sides; i++)
+        r->side[i].frames++;
     return status;
 }
 
-// ---- reading ------------------------------------------------------------------------------
-
-uint32_t renderer_texture(renderer *r, renderer_layer layer)
+const char *renderer_fault(const renderer *r)
 {
-    const bool wanted = r->declared && layer < LAYER_END && (r->desc.layers & 1u << layer);
-    return wanted ? fg_graph_exported(r->graph, r->layers[layer]) : 0;
-}
-
-// Turns `count` rows of rgba from row `first` up, counted from the bottom, into rows of rgb from
-// the top down.
-static void store(const renderer *r, renderer_layer layer, const float *rgba, int first, int count,
-                  image *out)
-{
-    for (int y = first; y < first + count; y++) {
-        const float *from = rgba + (size_t) 4 * out->width * (y - first);
-        float *to = out->rgb + (size_t) 3 * out->width * (out->height - 1 - y);
-        for (int x = 0; x < out->width; x++, from += 4, to += 3) {
-            const bool world = layer == LAYER_POSITION && from[3] > 0.5f;
-            for (int c = 0; c < 3; c++)
-                to[c] = world ? (float) ((double) from[c] + r->view.origin[c]) : from[c];
-        }
-    }
-}
-
-// Size of a layer's texture. What a plugin hands out may be anything.
-static fg_status measure(const renderer *r, renderer_layer layer, uint32_t texture, int size[2])
-{
-    char name[64];
-    const char *fault = NULL;
-    int target = GL_TEXTURE_2D, format = 0;
-    if (texture) {
-        glGetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
-        glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
-        glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_WIDTH, &size[0]);
-        glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_HEIGHT, &size[1]);
-    }
-    if (!texture)
-        fault = "is not there to be read";
-    else if (layer >= LAYER_PLUGIN &&
-             (target != GL_TEXTURE_2D || (format != GL_RGBA16F && format != GL_RGBA32F)))
-        fault = "must be a 2D texture, RGBA16F or RGBA32F";
-    if (!fault)
-        return FG_OK;
-    fg_logf(r->desc.log, FG_LOG_ERROR, "renderer: layer %s %s",
-            layer_name(r, layer, name, sizeof name), fault);
-    return FG_ERR_INVALID;
-}
-
-fg_status renderer_read(renderer *r, renderer_layer layer, image *out)
-{
-    // In bands: OpenGL counts the bytes of one call in an int.
-    enum { BAND = 64 };
-    const uint32_t texture = renderer_texture(r, layer);
-    int extent[2] = { 0 };
-    fg_status status = measure(r, layer, texture, extent);
-    if (status)
-        return status;
-    const int width = extent[0], height = extent[1];
-    const size_t size = sizeof(float) * 4 * (size_t) width * BAND;
-    float *rgba = malloc(size);
-    status = rgba ? image_create(r->desc.log, width, height, out) : FG_ERR_MEMORY;
-    if (!status)
-        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    for (int y = 0; !status && y < height; y += BAND) {
-        const int rows = height - y < BAND ? height - y : BAND;
-        glGetTextureSubImage(texture, 0, 0, y, 0, width, rows, 1, GL_RGBA, GL_FLOAT, (GLsizei) size,
-                             rgba);
-        store(r, layer, rgba, y, rows, out);
-    }
-    free(rgba);
-    return status;
+    return r->fault[0] ? r->fault : NULL;
 }
 
 fg_graph *renderer_graph(renderer *r)
@@ -417,5 +408,6 @@ fg_graph *renderer_graph(renderer *r)
 
 int renderer_counters(renderer *r, gi_counter *out, int max)
 {
-    return r->plugin && r->plugin->counters ? r->plugin->counters(r->self, out, max) : 0;
+    const branch *b = &r->side[0];
+    return b->plugin && b->plugin->counters ? b->plugin->counters(b->self, out, max) : 0;
 }

@@ -179,6 +179,7 @@ fg_status stability_open(stability *s, const shot *what, renderer **out)
         .plugin = s->setting->plugin,
         .values = what->values ? what->values : s->setting->values,
         .layers = 1u << what->layer,
+        .strict = true,
         .debug = what->debug | FG_DEBUG_POISON,
         .seed = 1,
         .inspect = inspect,

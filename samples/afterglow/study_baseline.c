@@ -64,6 +64,7 @@ static fg_status render(const studies_desc *d, const tour *t, double time, const
     renderer *r = NULL;
     renderer_desc desc = host_renderer_desc(d->h, s, d->width, d->height);
     desc.layers = 1u << LAYER_INDIRECT;
+    desc.strict = true;
     fg_status status = host_renderer(d->h, &desc, &r);
     if (status == FG_OK)
         status = tour_pose(t, r, time);

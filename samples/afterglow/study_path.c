@@ -71,6 +71,7 @@ static fg_status open_renderer(walk *w, renderer_layer layer)
     const setting none = { 0 };
     renderer_desc desc = host_renderer_desc(d->h, &none, d->width, d->height);
     desc.layers = 1u << layer;
+    desc.strict = true;
     renderer_destroy(w->r);
     w->r = NULL;
     return host_renderer(d->h, &desc, &w->r);

@@ -103,6 +103,7 @@ fg_status side_open(const bench *b, side *s, const int size[2])
                                              .height = size[1],
                                              .plugin = s->table,
                                              .values = s->set,
+                                             .strict = true,
                                              .layers = s->picture ? 1u << LAYER_INDIRECT : 0 },
                            &s->r);
 }

@@ -306,6 +306,7 @@ image shot_take(const shot *s)
         .plugin = s->plugin,
         .values = s->plugin ? values : NULL,
         .layers = 1u << s->layer,
+        .strict = true,
         .shadow_size = s->shadow_size,
         .shadow_taps = s->shadow_taps,
         .inspect = s->captures ? on_written : NULL,

@@ -388,7 +388,8 @@ static void mistakes_name_value_and_rule(void **state)
                                  .width = 4,
                                  .height = 4,
                                  .plugin = plugin,
-                                 .values = values };
+                                 .values = values,
+                                 .strict = true };
     renderer *r = NULL;
     log_clear();
     assert_int_equal(renderer_create(&desc, &r), FG_OK);

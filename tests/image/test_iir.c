@@ -62,7 +62,8 @@ static film shoot(ag_scene *scene, const char *const *settings, int frames, move
                                  .height = EDGE,
                                  .plugin = plugin,
                                  .values = values,
-                                 .layers = 1u << LAYER_INDIRECT };
+                                 .layers = 1u << LAYER_INDIRECT,
+                                 .strict = true };
     assert_int_equal(renderer_create(&desc, &r), FG_OK);
     for (int i = 0; i < frames; i++) {
         ag_light at = lamp;

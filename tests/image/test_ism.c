@@ -206,7 +206,8 @@ static image frame_at(ag_scene *scene, double time, const char *visibility)
                                  .height = N,
                                  .plugin = plugin_rsm(),
                                  .values = values,
-                                 .layers = 1u << LAYER_INDIRECT };
+                                 .layers = 1u << LAYER_INDIRECT,
+                                 .strict = true };
     assert_int_equal(renderer_create(&desc, &r), FG_OK);
     assert_int_equal(renderer_frame(r, 0), FG_OK);
     assert_int_equal(renderer_frame(r, time), FG_OK);

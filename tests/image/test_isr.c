@@ -299,7 +299,8 @@ static image render_debug(ag_scene *scene, const char *const *settings, unsigned
                                  .values = values,
                                  .layers = 1u << LAYER_INDIRECT,
                                  .debug = debug,
-                                 .seed = 3 };
+                                 .seed = 3,
+                                 .strict = true };
     log_clear();
     // Twice: what the first frame left does not show in the second.
     if (renderer_create(&desc, &r) || renderer_frame(r, 0) || renderer_frame(r, 0) ||

@@ -27,6 +27,7 @@ static renderer_desc desc_for(ag_scene *scene, const gi_plugin *plugin)
         .height = H,
         .plugin = plugin,
         .layers = (1u << LAYER_COUNT) - 1,
+        .strict = true,
     };
 }
 

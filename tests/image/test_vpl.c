@@ -330,6 +330,7 @@ static void a_light_switched_on_shines(void **state)
         .height = 16,
         .plugin = plugin_rsm(),
         .layers = 1u << LAYER_INDIRECT,
+        .strict = true,
     };
     renderer *r = NULL;
     image img = { 0 };
