@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host.h"
+#include "record.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -66,10 +66,7 @@ static cJSON *scene_json(const host *h)
     cJSON_AddNumberToObject(object, "warnings", scene->warning_count);
     cJSON_AddItemToObject(object, "box_min", vector_json(scene->box_min, 3));
     cJSON_AddItemToObject(object, "box_max", vector_json(scene->box_max, 3));
-    cJSON *features = cJSON_AddArrayToObject(object, "features");
-    for (int i = 0; i < AG_FEATURE_COUNT; ++i)
-        if (scene->features >> i & 1)
-            cJSON_AddItemToArray(features, cJSON_CreateString(ag_feature_names[i]));
+    cJSON_AddItemToObject(object, "features", record_features(scene->features));
     cJSON *lights = cJSON_AddArrayToObject(object, "lights");
     for (int i = 0; i < scene->light_count; ++i)
         cJSON_AddItemToArray(lights, light_json(&scene->lights[i]));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "cli.h"
+#include "record.h"
 #include "scenes.h"
 
-#include <cjson/cJSON.h>
 #include <stdlib.h>
 
 static int print_json(cli *c)
@@ -13,6 +12,7 @@ static int print_json(cli *c)
         cJSON *object = cJSON_CreateObject();
         cJSON_AddStringToObject(object, "name", scene->name);
         cJSON_AddStringToObject(object, "purpose", scene->purpose);
+        cJSON_AddItemToObject(object, "features", record_features(scene->features));
         cJSON_AddItemToArray(array, object);
     }
     char *text = cJSON_Print(array);
@@ -24,13 +24,27 @@ static int print_json(cli *c)
     return EXIT_DONE;
 }
 
+static void print_features(uint64_t features)
+{
+    const char *separator = "";
+    for (int i = 0; i < AG_FEATURE_COUNT; ++i) {
+        if (!(features >> i & 1))
+            continue;
+        printf("%s%s", separator, ag_feature_names[i]);
+        separator = ", ";
+    }
+    printf("\n");
+}
+
 static int run(cli *c, const options *o)
 {
     const builtin_scene *scene;
     if (o->json)
         return print_json(c);
-    for (int i = 0; (scene = scenes_builtin(i)); ++i)
-        printf("%-12s %s\n", scene->name, scene->purpose);
+    for (int i = 0; (scene = scenes_builtin(i)); ++i) {
+        printf("%-12s %s\n%12s ", scene->name, scene->purpose, "");
+        print_features(scene->features);
+    }
     return EXIT_DONE;
 }
 

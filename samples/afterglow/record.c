@@ -143,6 +143,15 @@ cJSON *record_device(const host *h)
     return device;
 }
 
+cJSON *record_features(uint64_t features)
+{
+    cJSON *array = cJSON_CreateArray();
+    for (int i = 0; i < AG_FEATURE_COUNT; ++i)
+        if (features >> i & 1)
+            cJSON_AddItemToArray(array, cJSON_CreateString(ag_feature_names[i]));
+    return array;
+}
+
 cJSON *record_params(const setting *s)
 {
     cJSON *params = cJSON_CreateObject();

@@ -38,6 +38,7 @@ cJSON *record_create(const host *h, renderer *r, const setting *s, const timing 
 cJSON *record_error(const char *reference, const metrics *m);
 cJSON *record_device(const host *h);
 cJSON *record_params(const setting *s);
+cJSON *record_features(uint64_t features); // the names of ag_feature bits
 FG_NODISCARD fg_status record_write(const fg_log *log, const cJSON *json, const char *path);
 
 #endif // RECORD_H

@@ -54,13 +54,29 @@ static void add_materials(atrium *a)
     }
 }
 
+// From the west around the fountain, through an arch, along the southern aisle and back.
+static const kit_stop stops[] = {
+    { { -7.8, 1.75, -1.0 }, { 3.0, 2.6, 0.6 } },  { { -4.6, 1.75, -1.2 }, { 5.0, 2.6, 0.2 } },
+    { { -2.0, 1.75, -2.1 }, { 6.0, 2.8, 1.0 } },  { { 0.8, 1.75, -2.5 }, { 7.0, 3.0, 1.6 } },
+    { { 3.6, 1.75, -1.2 }, { 9.0, 3.0, 2.2 } },   { { 6.2, 1.75, 0.0 }, { 9.0, 2.8, 5.2 } },
+    { { 6.9, 1.75, 2.4 }, { 5.6, 2.4, 7.4 } },    { { 6.7, 1.75, 4.5 }, { 1.0, 2.0, 6.4 } },
+    { { 5.2, 1.80, 5.8 }, { -3.0, 2.0, 6.0 } },   { { 2.0, 1.80, 5.9 }, { -5.0, 2.0, 5.4 } },
+    { { -0.4, 1.80, 5.5 }, { -6.0, 2.2, 2.4 } },  { { -1.5, 1.75, 4.4 }, { -5.5, 2.6, -1.6 } },
+    { { -2.5, 1.75, 2.8 }, { -4.0, 2.8, -4.0 } }, { { -5.2, 1.75, 1.2 }, { 0.0, 2.8, -4.4 } },
+    { { -7.4, 1.75, 0.6 }, { 4.0, 2.8, -2.0 } },
+};
+
 static void add_cameras(atrium *a)
 {
+    const kit_walk_desc walk = {
+        .name = "path", .stops = stops, .count = FG_COUNT(stops), .seconds = 24.0f, .yfov = 1.1f
+    };
     kit_camera(&a->k, "court", (double[]){ -8.35, 1.75, -1.2 }, (double[]){ 3.0, 2.95, 1.4 },
                1.12f);
     kit_camera(&a->k, "gallery", (double[]){ -5.3, 6.2, 6.75 }, (double[]){ 4.5, 5.5, 4.3 }, 1.10f);
     kit_camera(&a->k, "aisle", (double[]){ -6.3, 1.7, 6.5 }, (double[]){ 4.0, 2.2, 5.4 }, 1.05f);
     kit_camera(&a->k, "above", (double[]){ -8.6, 13.0, -3.2 }, (double[]){ 1.2, 1.2, 1.4 }, 1.0f);
+    kit_walk(&a->k, &walk);
 }
 
 fg_status atrium_build(const fg_log *log, ag_scene **out)

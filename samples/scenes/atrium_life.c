@@ -4,9 +4,9 @@
 #include <math.h>
 
 // What moves: four lamps swing on their chains, and the light sweeps along the court. All of it
-// repeats after one period, on keys that a linear interpolation follows closely.
+// repeats after one period.
 
-enum { LAMP_KEYS = 161, LIGHT_KEYS = 49 };
+enum { LIGHT_KEYS = 49 };
 static const float period = 24.0f; // s; ten swings of a lamp
 static const float tau = 6.28318531f;
 
@@ -30,27 +30,6 @@ static int add_lamp_part(atrium *a)
     return kit_part(&a->k, "lamp", &s, a->material[ATRIUM_BRASS]);
 }
 
-// Swings `node` across its arch, starting at `phase` of a swing of 2.4 s.
-static void swing(atrium *a, int node, float amplitude, float phase)
-{
-    float times[LAMP_KEYS], values[4 * LAMP_KEYS];
-    for (int i = 0; i < LAMP_KEYS; ++i) {
-        const float t = (float) i / (float) (LAMP_KEYS - 1);
-        double q[4];
-        kit_turn(0, (double) (amplitude * sinf(tau * (10.0f * t + phase))), q);
-        times[i] = period * t;
-        for (int k = 0; k < 4; ++k)
-            values[4 * i + k] = (float) q[k];
-    }
-    const ag_channel_desc channel = { .node = node,
-                                      .path = AG_PATH_ROTATION,
-                                      .interpolation = AG_INTERPOLATE_LINEAR,
-                                      .key_count = LAMP_KEYS,
-                                      .times = times,
-                                      .values = values };
-    ag_builder_channel(a->k.builder, &channel);
-}
-
 static void add_lamps(atrium *a)
 {
     static const struct {
@@ -62,36 +41,43 @@ static void add_lamps(atrium *a)
                              atrium_distance(where[i].side), 0 };
         const int fixed = kit_node(&a->k, "lamp hook", a->side[where[i].side], hook);
         const int node = kit_show(&a->k, "lamp", part, fixed, (place){ 0 });
-        swing(a, node, 0.16f + 0.03f * (float) i, 0.15f + 0.21f * (float) i);
+        const kit_swing_desc swing = { .amplitude = 0.16f + 0.03f * (float) i,
+                                       .phase = 0.15f + 0.21f * (float) i,
+                                       .seconds = period,
+                                       .count = 10 };
+        kit_swing(&a->k, node, &swing);
     }
 }
 
 // The pivot runs to and fro along the court, the light turns around it.
+static void sun_along(const void *user, float t, float out[4])
+{
+    (void) user;
+    out[0] = 0.5f + 3.0f * sinf(tau * t);
+    out[1] = 0.0f;
+    out[2] = 1.2f;
+}
+
+static void sun_around(const void *user, float t, float out[4])
+{
+    double q[4];
+    (void) user;
+    kit_turn(1, (double) (0.30f + 0.35f * sinf(tau * t)), q);
+    for (int k = 0; k < 4; ++k)
+        out[k] = (float) q[k];
+}
+
 static void sweep(atrium *a, int pivot)
 {
-    float times[LIGHT_KEYS], along[3 * LIGHT_KEYS], turn[4 * LIGHT_KEYS];
-    for (int i = 0; i < LIGHT_KEYS; ++i) {
-        const float t = (float) i / (float) (LIGHT_KEYS - 1);
-        double q[4];
-        times[i] = period * t;
-        float *to = along + 3 * (ptrdiff_t) i;
-        to[0] = 0.5f + 3.0f * sinf(tau * t);
-        to[1] = 0.0f;
-        to[2] = 1.2f;
-        kit_turn(1, (double) (0.30f + 0.35f * sinf(tau * t)), q);
-        for (int k = 0; k < 4; ++k)
-            turn[4 * i + k] = (float) q[k];
-    }
-    ag_channel_desc channel = { .node = pivot,
-                                .path = AG_PATH_TRANSLATION,
-                                .interpolation = AG_INTERPOLATE_LINEAR,
-                                .key_count = LIGHT_KEYS,
-                                .times = times,
-                                .values = along };
-    ag_builder_channel(a->k.builder, &channel);
-    channel.path = AG_PATH_ROTATION;
-    channel.values = turn;
-    ag_builder_channel(a->k.builder, &channel);
+    kit_motion m = { .node = pivot,
+                     .path = AG_PATH_TRANSLATION,
+                     .keys = LIGHT_KEYS,
+                     .seconds = period,
+                     .curve = sun_along };
+    kit_move(&a->k, &m);
+    m.path = AG_PATH_ROTATION;
+    m.curve = sun_around;
+    kit_move(&a->k, &m);
 }
 
 // A spot high above the north side's roof: about 6 W/m^2 on the court's floor.

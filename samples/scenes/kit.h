@@ -13,6 +13,7 @@ typedef struct kit {
     const fg_log *log;
     ag_builder *builder; // owned
     bool failed;         // out of memory, here or in a shape
+    int motions;         // each is an animation of its own, so that lengths may differ
 } kit;
 
 // False: out of memory, said in the log.
@@ -34,6 +35,44 @@ int kit_show(kit *k, const char *name, int part, int parent, place at);
 int kit_texture(kit *k, const char *name, pattern what, int size);
 // A camera at `eye` that looks at `target`, `yfov` in radians.
 void kit_camera(kit *k, const char *name, const double eye[3], const double target[3], float yfov);
+
+// ---- what moves (kit_motion.c) ------------------------------------------------------
+
+// What drives a node: a curve over t in [0, 1], sampled at even distances and followed in straight
+// lines (of rotations: arcs) between. It loops: a curve that ends as it begins does not jump.
+typedef struct kit_motion {
+    int node;
+    ag_path path;
+    int keys;      // >= 2, both ends counted
+    float seconds; // of a round
+    // Values as the path has them: metres, a quaternion (xyzw), factors.
+    void (*curve)(const void *user, float t, float out[4]);
+    const void *user;
+} kit_motion;
+void kit_move(kit *k, const kit_motion *m);
+
+// To and fro around an axis: a swing of `amplitude` radians, `count` times in `seconds`, from
+// `phase` (in swings) on.
+typedef struct kit_swing_desc {
+    int axis;
+    float amplitude, phase, seconds;
+    int count;
+} kit_swing_desc;
+void kit_swing(kit *k, int node, const kit_swing_desc *desc);
+
+// A camera that goes smoothly from stop to stop and back to the first, within `seconds`; the way
+// from one to the next takes longer the further the eye goes and the target turns away.
+typedef struct kit_stop {
+    double eye[3], target[3]; // not above each other
+} kit_stop;
+typedef struct kit_walk_desc {
+    const char *name;
+    const kit_stop *stops;
+    int count;     // >= 3; no two in a row are the same
+    float seconds; // of a round
+    float yfov;    // radians
+} kit_walk_desc;
+void kit_walk(kit *k, const kit_walk_desc *desc);
 
 // The quaternion (xyzw) that turns -Z into `direction` and keeps +X horizontal; `direction` is
 // not vertical.

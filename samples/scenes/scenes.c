@@ -9,10 +9,17 @@
 #include <string.h>
 #include <sys/stat.h>
 
+// What every one of them has: triangles, a light that moves and parts that do.
+enum {
+    LIVE = AG_FEATURE_GEOMETRY | AG_FEATURE_LIGHT | AG_FEATURE_MOVING_LIGHT |
+           AG_FEATURE_MOVING_GEOMETRY,
+};
+
 static const builtin_scene table[] = {
-    { "cornell", "the Cornell box as measured, with a spot under its ceiling", cornell_build },
+    { "cornell", "the Cornell box as measured, with a spot under its ceiling",
+      LIVE | AG_FEATURE_SPOT_LIGHT, cornell_build },
     { "atrium", "a two-storey court in bays with cloths, jars and plants, under a moving light",
-      atrium_build },
+      LIVE | AG_FEATURE_SPOT_LIGHT | AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK, atrium_build },
 };
 
 const builtin_scene *scenes_builtin(int i)

@@ -10,6 +10,7 @@ FG_BEGIN
 typedef struct builtin_scene {
     const char *name;
     const char *purpose; // one line: what it is for
+    uint64_t features;   // ag_feature bits that the scene has once it is built
     fg_status (*build)(const fg_log *log, ag_scene **out);
 } builtin_scene;
 

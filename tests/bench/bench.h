@@ -128,7 +128,8 @@ bool step_is_fixed(const char *step); // neither of both
 // ---- moving light ----------------------------------------------------------------------------
 
 // Where an animation of the scene moves the light (atrium: 26 mm a frame), that goes on at 30
-// frames a second; in the others the first light goes as far here, 5 mm a frame in cornell.
+// frames a second; in the others the first light goes as far here. So it does in cornell, 5 mm a
+// frame, whose own light goes in a circle: else all of the box rests.
 typedef struct motion {
     ag_scene *scene;
     bool by_itself;

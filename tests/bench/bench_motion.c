@@ -7,10 +7,11 @@
 
 motion motion_begin(const bench *b)
 {
+    const bool cornell = !strcmp(b->scene_name, "cornell");
     return (motion){
         .scene = b->scene,
-        .by_itself = (b->scene->features & AG_FEATURE_MOVING_LIGHT) != 0,
-        .step = !strcmp(b->scene_name, "cornell") ? 0.005 : 0.026,
+        .by_itself = !cornell && (b->scene->features & AG_FEATURE_MOVING_LIGHT) != 0,
+        .step = cornell ? 0.005 : 0.026,
         .light = b->scene->lights[0],
         .camera = b->scene->cameras[b->camera],
     };

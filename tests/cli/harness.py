@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Runs the afterglow command and counts what it was expected to do."""
+import base64
+import json
 import os
 import struct
 import subprocess
@@ -52,6 +54,19 @@ def read_pfm(path):
         assert float(f.readline()) < 0
         data = f.read()
     return width, height, struct.unpack('<%df' % (3 * width * height), data)
+
+
+def write_triangle(path):
+    """A .gltf file of one triangle, without camera, light or motion."""
+    corners = base64.b64encode(struct.pack('<9f', -1, -1, 0, 1, -1, 0, 0, 1, 0)).decode()
+    with open(path, 'w') as f:
+        json.dump({
+            'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
+            'meshes': [{'primitives': [{'attributes': {'POSITION': 0}}]}],
+            'buffers': [{'uri': 'data:application/octet-stream;base64,' + corners, 'byteLength': 36}],
+            'bufferViews': [{'buffer': 0, 'byteLength': 36}],
+            'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3',
+                           'min': [-1, -1, 0], 'max': [1, 1, 0]}]}, f)
 
 
 def main(tests):

@@ -1,29 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The report: records, shards that join to the whole, a page that a browser opens without a complaint."""
-import base64
 import csv
 import html.parser
 import json
 import os
 import shutil
-import struct
 import subprocess
 
-from harness import fails, main, succeeds
+from harness import fails, main, succeeds, write_triangle
 
 SMALL = ['--size', '32x32', '--spp', '8']
-
-
-def write_triangle(path):
-    corners = base64.b64encode(struct.pack('<9f', -1, -1, 0, 1, -1, 0, 0, 1, 0)).decode()
-    with open(path, 'w') as f:
-        json.dump({
-            'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
-            'meshes': [{'primitives': [{'attributes': {'POSITION': 0}}]}],
-            'buffers': [{'uri': 'data:application/octet-stream;base64,' + corners, 'byteLength': 36}],
-            'bufferViews': [{'buffer': 0, 'byteLength': 36}],
-            'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3',
-                           'min': [-1, -1, 0], 'max': [1, 1, 0]}]}, f)
 
 
 def load(folder):
