@@ -38,14 +38,16 @@ void kit_camera(kit *k, const char *name, const double eye[3], const double targ
 
 // ---- what moves (kit_motion.c) ------------------------------------------------------
 
-// What drives a node: a curve over t in [0, 1], sampled at even distances and followed in straight
-// lines (of rotations: arcs) between. It loops: a curve that ends as it begins does not jump.
+// What drives a node or a material: a curve over t in [0, 1], sampled at even distances and
+// followed in straight lines (of rotations: arcs) between. It loops: a curve that ends as it begins
+// does not jump.
 typedef struct kit_motion {
-    int node;
+    int node; // or, by the path, `material`
+    int material;
     ag_path path;
     int keys;      // >= 2, both ends counted
     float seconds; // of a round
-    // Values as the path has them: metres, a quaternion (xyzw), factors.
+    // As many values as the path has: ag_path.
     void (*curve)(const void *user, float t, float out[4]);
     const void *user;
 } kit_motion;

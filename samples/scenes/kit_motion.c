@@ -9,7 +9,7 @@ static const float tau = 6.28318531f;
 
 static int values_of(ag_path path)
 {
-    return path == AG_PATH_ROTATION ? 4 : 3;
+    return path == AG_PATH_ROTATION ? 4 : path == AG_PATH_UV_OFFSET ? 2 : 3;
 }
 
 void kit_move(kit *k, const kit_motion *m)
@@ -29,6 +29,7 @@ void kit_move(kit *k, const kit_motion *m)
         memcpy(values + (ptrdiff_t) n * i, out, (size_t) n * sizeof *out);
     }
     const ag_channel_desc channel = { .node = m->node,
+                                      .material = m->material,
                                       .path = m->path,
                                       .interpolation = AG_INTERPOLATE_LINEAR,
                                       .key_count = m->keys,
