@@ -43,7 +43,8 @@ typedef struct options {
     const char *layer, *format, *filter, *budget; // NULL: not given
     const char *plugin_dir[CLI_MAX_FOLDERS + 1];  // ends at NULL
     int plugin_dir_count;
-    const char *output, *stats, *shader_dir, *camera;
+    const char *output, *stats, *shader_dir, *camera, *params;
+    int render_scale; // 0: not given; 1, 2 or 4
     bool camera_at_given;
     double eye[3], target[3], fov; // degrees
     ag_light lights[CLI_MAX_LIGHTS];
@@ -92,7 +93,8 @@ typedef struct command {
 } command;
 
 extern const command command_render, command_sequence, command_reference, command_compare,
-    command_report, command_stability, command_graph, command_plugins, command_scenes, command_info;
+    command_report, command_stability, command_graph, command_view, command_plugins, command_scenes,
+    command_info;
 
 // What an option name stands for.
 #define OPTIONS_SCENE " --camera --camera-at --light "

@@ -45,17 +45,26 @@ int host_open_registry(host *h)
 
 int host_open_device(host *h)
 {
-    const int code = check_folder(h->c, "--shader-dir", h->o->shader_dir);
-    if (code != EXIT_DONE)
-        return code;
-    fg_status status = fg_gl_context_create(
+    const fg_status status = fg_gl_context_create(
         &(fg_gl_context_desc){ .log = &h->c->log, .device = h->o->device }, &h->context);
     if (status == FG_ERR_INVALID)
         return cli_fail(h->c, EXIT_USAGE, "--device: there is no device %d", h->o->device);
-    if (status == FG_OK)
-        status = fg_gl_device_create(
-            &(fg_gl_device_desc){ .log = &h->c->log, .shader_dir = h->o->shader_dir }, &h->device);
-    return cli_status(h->c, status);
+    return status == FG_OK ? host_take_context(h) : cli_status(h->c, status);
+}
+
+int host_take_context(host *h)
+{
+    const int code = check_folder(h->c, "--shader-dir", h->o->shader_dir);
+    if (code != EXIT_DONE)
+        return code;
+    const fg_gl_device_desc desc = { .log = &h->c->log, .shader_dir = h->o->shader_dir };
+    return cli_status(h->c, fg_gl_device_create(&desc, &h->device));
+}
+
+void host_drop_device(host *h)
+{
+    fg_device_destroy(h->device);
+    h->device = NULL;
 }
 
 // ---- scene -----------------------------------------------------------------------------------

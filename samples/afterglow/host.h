@@ -47,6 +47,9 @@ int host_open_scene(host *h, const char *name);
 // Takes over a scene that was made by code, or NULL.
 void host_take_scene(host *h, ag_scene *scene, const char *name);
 int host_open_device(host *h);
+// A device for the context that is current, of a window: the caller's.
+int host_take_context(host *h);
+void host_drop_device(host *h); // before the context of host_take_context() goes
 
 bool host_has_plugin(const host *h, const char *name); // whether there is one; it may not load
 // The plugin `name` with the values that --set gives. An unknown name is wrong usage; a module

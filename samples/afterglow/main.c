@@ -6,17 +6,9 @@
 #include <unistd.h>
 
 static const command *const commands[] = {
-    &command_render,
-    &command_sequence,
-    &command_reference,
-    &command_compare,
-    &command_report,
-    &command_stability,
-    &command_graph,
-    &command_plugins,
-    &command_scenes,
-    &command_info,
-    NULL,
+    &command_render,  &command_sequence,  &command_reference, &command_compare,
+    &command_report,  &command_stability, &command_graph,     &command_view,
+    &command_plugins, &command_scenes,    &command_info,      NULL,
 };
 
 static const command *find_command(const char *name)

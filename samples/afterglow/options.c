@@ -124,6 +124,8 @@ typedef enum option_id {
     OPT_STATS,
     OPT_PLUGIN_DIR,
     OPT_SHADER_DIR,
+    OPT_PARAMS,
+    OPT_RENDER_SCALE,
     OPT_CAMERA,
     OPT_CAMERA_AT,
     OPT_LIGHT,
@@ -183,6 +185,10 @@ static const option table[] = {
       "a folder to look for plugins in first; may be given again, the first that has one wins" },
     { OPT_SHADER_DIR, "--shader-dir", NULL, "DIR", "",
       "read shaders below this folder, a source tree, instead of those built in" },
+    { OPT_PARAMS, "--params", NULL, "FILE", "",
+      "a parameter set to begin with, as 'view' saves it" },
+    { OPT_RENDER_SCALE, "--render-scale", NULL, "N", "1, 2 or 4",
+      "the frame has a 1/N of the window's pixels a side (1; without a GPU 2)" },
     { OPT_CAMERA, "--camera", NULL, "NAME", "", "a camera of the scene, instead of its first" },
     { OPT_CAMERA_AT, "--camera-at", NULL, "PX,PY,PZ:TX,TY,TZ[:FOV]", "",
       "a camera at P that looks at T; vertical field of view in degrees (60)" },
@@ -246,6 +252,11 @@ static bool set_taps(const char *text, int *out)
     return set_number(text, 4, 16, out) && (*out == 4 || *out == 16);
 }
 
+static bool set_scale(const char *text, int *out)
+{
+    return set_number(text, 1, 4, out) && *out != 3;
+}
+
 static bool set_flag(bool *flag)
 {
     *flag = true;
@@ -263,6 +274,7 @@ static bool apply_number(options *o, option_id id, const char *v)
     case OPT_EXPOSURE: return set_exposure(o, v);
     case OPT_SHADOW_SIZE: return set_number(v, 1, 8192, &o->shadow_size);
     case OPT_SHADOW_TAPS: return set_taps(v, &o->shadow_taps);
+    case OPT_RENDER_SCALE: return set_scale(v, &o->render_scale);
     case OPT_DEVICE: return set_number(v, 0, 64, &o->device);
     case OPT_BOUNCES: return set_number(v, 0, 64, &o->bounces);
     case OPT_SPP: return set_number(v, 1, 1048576, &o->spp);
@@ -286,6 +298,7 @@ static bool apply_word(options *o, option_id id, const char *v)
     case OPT_STATS: return set_text(v, &o->stats);
     case OPT_PLUGIN_DIR: return add_word(o->plugin_dir, &o->plugin_dir_count, CLI_MAX_FOLDERS, v);
     case OPT_SHADER_DIR: return set_text(v, &o->shader_dir);
+    case OPT_PARAMS: return set_text(v, &o->params);
     case OPT_CAMERA: return set_text(v, &o->camera);
     case OPT_DEBUG: return set_debug(o, v);
     case OPT_NEEDS: return o->needs_all = !strcmp(v, "all");
