@@ -84,24 +84,12 @@ alone() { # the frame graph with nothing but libepoxy and EGL
     build_in build-alone -Dpasses=false -Dwerror=true
 }
 
-installed() ( # a host outside the tree, built against the installed package
-    local root=$PWD/build-install libs
-    rm -rf "$root" && mkdir -p "$root"
-    meson install -C build --no-rebuild --destdir "$root" >/dev/null || return 1
-    PKG_CONFIG_PATH=$(dirname "$(find "$root" -name afterglow.pc)")
-    export PKG_CONFIG_PATH PKG_CONFIG_SYSROOT_DIR=$root
-    libs=$(dirname "$PKG_CONFIG_PATH")
-    cc -std=c11 -Wall -Werror tests/install/host.c -o "$root/host" \
-        $(pkg-config --cflags --libs afterglow) || return 1
-    LD_LIBRARY_PATH=$libs "$root/host"
-)
-
 tidy() {
     sources | grep '\.c$' | grep -v '^tests/fuzz' |
         xargs -P "$jobs" -n 1 clang-tidy -p build --quiet 2>/dev/null
 }
 
-if wanted build && step "build" build_in build -Dwerror=true; then
+if wanted build && step "build" build_in build -Dwerror=true -Dpkgconfig.relocatable=true; then
     meson_tests build test
 fi
 if wanted sanitize && step "build with sanitizers" build_in build-sanitize -Dwerror=true \
@@ -119,7 +107,7 @@ if wanted tsan && step "build with ThreadSanitizer" threads_build; then
 fi
 wanted clang && step "build with clang" clang_build
 wanted alone && step "the frame graph alone" alone && meson_tests build-alone alone
-wanted install && step "a host against the installed package" installed
+wanted install && step "a host and plugins against the installed package" tests/install/outside.sh build
 wanted format && step "clang-format" sh -c "git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format --dry-run --Werror"
 wanted tidy && step "clang-tidy" tidy
 wanted cppcheck && step "cppcheck" sh -c "git ls-files 'framegraph/*.c' 'passes/*.c' 'plugins/*.c' 'samples/*.c' |

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Embeds a GLSL file as a C object and compiles every permutation of it.
 
-    embed_glsl.py ROOT INPUT HEADER DEPFILE GLSLANG [DEFINES]...
+    embed_glsl.py [-I FOLDER]... ROOT INPUT HEADER DEPFILE GLSLANG [DEFINES]...
 
-ROOT is the source root: the shader is named by its path below it. HEADER gets a
+ROOT is the source root: the shader is named by its path below it. Includes are looked
+for beside the including file, below ROOT, then below each FOLDER. HEADER gets a
 `static const fg_gl_shader <file>_<stage>` with the includes expanded. Each
 DEFINES ("A=1;B", "" for none) is one permutation, which GLSLANG must accept;
 without any the shader is compiled once, plain. GLSLANG "-" compiles nothing.
@@ -16,24 +17,23 @@ import sys
 import tempfile
 
 
-def expand(path, root, seen):
+def expand(path, folders, seen):
     """The lines of `path` with `#include "file"` replaced, each file once. A path is looked for
-    beside the including file, then below the root."""
+    beside the including file, then below the folders."""
     seen.append(path)
     for number, line in enumerate(path.read_text().splitlines(), 1):
         include = re.match(r'\s*#include\s+"([^"]+)"', line)
         if not include:
             yield line
             continue
-        target = path.parent / include[1]
-        if not target.exists():
-            target = root / include[1]
-        if not target.exists():
+        places = [folder / include[1] for folder in [path.parent, *folders]]
+        target = next((place for place in places if place.exists()), None)
+        if not target:
             sys.exit(f'{path}:{number}: no file {include[1]}')
         target = target.resolve()
         if target not in seen:
             yield '#line 1'
-            yield from expand(target, root, seen)
+            yield from expand(target, folders, seen)
             yield f'#line {number + 1}'
 
 
@@ -44,12 +44,16 @@ def with_defines(text, defines):
 
 
 def main():
-    root, source, header, depfile, glslang, *permutations = sys.argv[1:]
+    words, folders = sys.argv[1:], []
+    while words[0] == '-I':
+        folders.append(pathlib.Path(words[1]).resolve())
+        words = words[2:]
+    root, source, header, depfile, glslang, *permutations = words
     root, source = pathlib.Path(root).resolve(), pathlib.Path(source).resolve()
     if root not in source.parents:
         sys.exit(f'{source}: is not below {root}')
     seen = []
-    text = '\n'.join(expand(source, root, seen)) + '\n'
+    text = '\n'.join(expand(source, [root, *folders], seen)) + '\n'
     if not text.startswith('#version 450 core\n'):
         sys.exit(f'{source}:1: the first line must be "#version 450 core"')
     for defines in [] if glslang == '-' else permutations or ['']:

@@ -82,7 +82,8 @@ static fg_status append(entries *all, entry *e)
 static fg_status add(entries *all, const char *name, size_t length, char *path,
                      gi_plugin_entry_fn fn)
 {
-    entry e = { .name = strndup(name, length), .path = path, .entry = fn };
+    entry e = { .name = strndup(name, length), .entry = fn };
+    e.path = path;
     if (e.name && !find(all, e.name))
         return append(all, &e);
     const fg_status status = e.name ? FG_OK : FG_ERR_MEMORY;
@@ -451,8 +452,9 @@ fg_status gi_rescan(gi_registry *r)
     for (int i = 0; status == FG_OK && i < fresh.count; ++i) {
         entry *now = &fresh.items[i], *e = find(&r->all, now->name);
         if (!e) {
-            status = append(&r->all, now);
+            entry taken = *now;
             *now = (entry){ .name = NULL };
+            status = append(&r->all, &taken);
         } else if (now->path && e->path && strcmp(now->path, e->path) != 0) {
             char *old = e->path; // another folder has it now
             e->path = now->path;

@@ -24,9 +24,10 @@ class Embed(unittest.TestCase):
     def write(self, name, text):
         (self.root / name).write_text(text)
 
-    def embed(self, name, *defines, glslang=None):
+    def embed(self, name, *defines, glslang=None, folders=()):
+        options = [word for folder in folders for word in ('-I', folder)]
         done = subprocess.run(
-            [sys.executable, EMBED_GLSL, self.root, self.root / name, self.root / 'out.h',
+            [sys.executable, EMBED_GLSL, *options, self.root, self.root / name, self.root / 'out.h',
              self.root / 'out.d', glslang or GLSLANG, *defines], capture_output=True, text=True)
         return done.returncode, done.stderr
 
@@ -52,6 +53,18 @@ class Embed(unittest.TestCase):
         self.assertEqual(
             self.text(), VERSION + '#line 1\nint both;\n#line 3\n#line 1\nint root;\n#line 4\n'
             'layout(local_size_x = 1) in;\nvoid main() {}\n')
+
+    def test_includes_are_found_below_further_folders_in_order(self):
+        for folder in ['first', 'second']:
+            (self.root / folder / 'lib').mkdir(parents=True)
+            self.write(f'{folder}/lib/b.glsl', f'int {folder};\n')
+        self.write('second/lib/a.glsl', '#include "lib/b.glsl"\n')
+        self.write('on/a.comp', COMPUTE + '#include "lib/a.glsl"\nvoid main() {}\n')
+        self.assertEqual(self.embed('on/a.comp'), (1, f'{self.root}/on/a.comp:3: no file lib/a.glsl\n'))
+        self.assertEqual(self.embed('on/a.comp', folders=[self.root / 'first', self.root / 'second']), (0, ''))
+        self.assertIn('int first;', self.text())
+        self.assertNotIn('int second;', self.text())
+        self.assertIn('second/lib/a.glsl', (self.root / 'out.d').read_text())
 
     def test_depfile_has_every_file(self):
         self.write('a.glsl', 'int a;\n')
