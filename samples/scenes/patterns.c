@@ -2,6 +2,7 @@
 #include "patterns.h"
 
 #include <math.h>
+#include <pthread.h>
 
 // Hash of a lattice point: two rounds of multiply and fold.
 static uint32_t hash(uint32_t x, uint32_t y, uint32_t seed)
@@ -34,30 +35,69 @@ static float step_smooth(float lo, float hi, float x)
     return t * t * (3.0f - 2.0f * t);
 }
 
-// Value noise in [0, 1] on a lattice of nx x ny cells over the unit square, which it tiles.
-// `u` and `v` are in [0, 1).
-static float noise(float u, float v, int nx, int ny, uint32_t seed)
+// ---- where it is painted ---------------------------------------------------------------
+
+enum { CELLS = 64 }; // a power of two; no pattern has as many layers of noise
+
+// The corners of the lattice cell that the last point of a layer of noise was in: a row of pixels
+// stays in one for long, and hashing is what painting spends its time on.
+typedef struct cell {
+    uint32_t seed; // 0: none
+    int x, y;
+    float corner[4];
+} cell;
+
+// A point of the unit square, and what is kept from one to the next.
+typedef struct brush {
+    float u, v; // [0, 1)
+    cell cells[CELLS];
+} brush;
+
+// i modulo n for i in [0, 2 n).
+static int wrap(int i, int n)
 {
-    const float x = u * (float) nx, y = v * (float) ny;
+    return i < n ? i : i - n;
+}
+
+static const float *corners(brush *b, int ix, int iy, const int lattice[2], uint32_t seed)
+{
+    cell *c = &b->cells[seed % CELLS];
+    if (c->seed == seed && c->x == ix && c->y == iy)
+        return c->corner;
+    const int nx = lattice[0], ny = lattice[1];
+    const int x0 = wrap(ix, nx), x1 = wrap(x0 + 1, nx), y0 = wrap(iy, ny), y1 = wrap(y0 + 1, ny);
+    *c = (cell){ seed,
+                 ix,
+                 iy,
+                 { hash_unit(x0, y0, seed), hash_unit(x1, y0, seed), hash_unit(x0, y1, seed),
+                   hash_unit(x1, y1, seed) } };
+    return c->corner;
+}
+
+// Value noise in [0, 1] on a lattice of nx x ny cells over the unit square, which it tiles. A seed
+// belongs to one lattice.
+static float noise(brush *b, int nx, int ny, uint32_t seed)
+{
+    const float x = b->u * (float) nx, y = b->v * (float) ny;
     const int ix = (int) x, iy = (int) y;
     const float fx = x - (float) ix, fy = y - (float) iy;
     const float sx = fx * fx * (3.0f - 2.0f * fx), sy = fy * fy * (3.0f - 2.0f * fy);
-    const int x0 = ix % nx, x1 = (ix + 1) % nx, y0 = iy % ny, y1 = (iy + 1) % ny;
-    const float top = mix(hash_unit(x0, y0, seed), hash_unit(x1, y0, seed), sx);
-    const float bottom = mix(hash_unit(x0, y1, seed), hash_unit(x1, y1, seed), sx);
-    return mix(top, bottom, sy);
+    const float *c = corners(b, ix, iy, (const int[2]){ nx, ny }, seed);
+    return mix(mix(c[0], c[1], sx), mix(c[2], c[3], sx), sy);
 }
 
-// Four octaves, about [0, 1], mean 0.5.
-static float cloud(float u, float v, int cells, uint32_t seed)
+// Four octaves, about [0, 1], mean 0.5. Takes the seeds up to `seed` + 3.
+static float cloud(brush *b, int cells, uint32_t seed)
 {
     float sum = 0.0f, weight = 0.5333333f;
     for (uint32_t i = 0; i < 4; ++i) {
-        sum += weight * noise(u, v, cells << i, cells << i, seed + i);
+        sum += weight * noise(b, cells << i, cells << i, seed + i);
         weight *= 0.5f;
     }
     return sum;
 }
+
+// ---- patterns --------------------------------------------------------------------------
 
 // The linear colour `base` made lighter or darker by `shade`.
 static void tint(const float base[3], float shade, float rgba[4])
@@ -94,44 +134,47 @@ static brick bond(float u, float v, int columns, int rows)
     return b;
 }
 
-static void ashlar(float u, float v, float rgba[4])
+static void ashlar(brush *p, float rgba[4])
 {
+    const float u = p->u, v = p->v;
     static const float stone[3] = { 0.56f, 0.47f, 0.35f }, joint[3] = { 0.33f, 0.28f, 0.21f };
     const brick b = bond(u, v, 3, 5);
     const float own = hash_unit(b.column, b.row, 11);
-    const float grain = cloud(u, v, 8, 21), fine = noise(u, v, 128, 128, 31);
+    const float grain = cloud(p, 8, 21), fine = noise(p, 128, 128, 31);
     tint(stone, 0.80f + 0.20f * own + 0.26f * (grain - 0.5f) + 0.10f * (fine - 0.5f), rgba);
     rgba[2] *= 0.94f + 0.12f * hash_unit(b.column, b.row, 12);
     blend(rgba, joint, 1.0f - step_smooth(0.0022f, 0.0052f, b.edge + 0.0018f * (fine - 0.5f)));
 }
 
-static void limestone(float u, float v, float rgba[4])
+static void limestone(brush *p, float rgba[4])
 {
     static const float stone[3] = { 0.64f, 0.58f, 0.48f }, vein[3] = { 0.46f, 0.39f, 0.31f };
-    const float a = cloud(u, v, 4, 41), b = cloud(u, v, 6, 51), fine = noise(u, v, 160, 160, 61);
+    const float a = cloud(p, 4, 41), b = cloud(p, 6, 51), fine = noise(p, 160, 160, 61);
     tint(stone, 0.92f + 0.24f * (a - 0.5f) + 0.08f * (fine - 0.5f), rgba);
     blend(rgba, vein, 0.4f * (1.0f - step_smooth(0.0f, 0.035f, fabsf(b - 0.52f))));
 }
 
-static void plaster(float u, float v, float rgba[4])
+static void plaster(brush *p, float rgba[4])
 {
     static const float wash[3] = { 0.62f, 0.44f, 0.25f }, bare[3] = { 0.60f, 0.53f, 0.43f };
-    const float a = cloud(u, v, 4, 71), b = cloud(u, v, 7, 81), fine = noise(u, v, 200, 200, 91);
+    const float a = cloud(p, 4, 71), b = cloud(p, 7, 81), fine = noise(p, 200, 200, 91);
     tint(wash, 0.90f + 0.40f * (a - 0.5f) + 0.07f * (fine - 0.5f), rgba);
     blend(rgba, bare, 0.75f * step_smooth(0.56f, 0.68f, b));
 }
 
-static void bricks(float u, float v, float rgba[4])
+static void bricks(brush *p, float rgba[4])
 {
+    const float u = p->u, v = p->v;
     static const float clay[3] = { 0.40f, 0.17f, 0.10f }, mortar[3] = { 0.45f, 0.40f, 0.33f };
     const brick b = bond(u, v, 4, 14);
-    const float own = hash_unit(b.column, b.row, 101), fine = cloud(u, v, 32, 111);
+    const float own = hash_unit(b.column, b.row, 101), fine = cloud(p, 32, 111);
     tint(clay, 0.70f + 0.50f * own + 0.35f * (fine - 0.5f), rgba);
     blend(rgba, mortar, 1.0f - step_smooth(0.004f, 0.008f, b.edge));
 }
 
-static void paving(float u, float v, float rgba[4])
+static void paving(brush *p, float rgba[4])
 {
+    const float u = p->u, v = p->v;
     static const float pale[3] = { 0.60f, 0.54f, 0.44f }, dark[3] = { 0.22f, 0.17f, 0.15f };
     static const float gap[3] = { 0.25f, 0.22f, 0.18f };
     // Two slabs a side, and a diamond on every corner.
@@ -139,7 +182,7 @@ static void paving(float u, float v, float rgba[4])
     const int cx = (int) (x + 0.5f), cy = (int) (y + 0.5f);
     const float dx = fabsf(x - (float) cx), dy = fabsf(y - (float) cy);
     const float diamond = dx + dy; // from the nearest corner
-    const float grain = cloud(u, v, 8, 121), fine = noise(u, v, 96, 96, 131);
+    const float grain = cloud(p, 8, 121), fine = noise(p, 96, 96, 131);
     const int sx = (int) x, sy = (int) y;
     tint(pale, 0.84f + 0.16f * hash_unit(sx, sy, 141) + 0.24f * (grain - 0.5f) + 0.06f * fine,
          rgba);
@@ -150,41 +193,44 @@ static void paving(float u, float v, float rgba[4])
     }
 }
 
-static void terracotta(float u, float v, float rgba[4])
+static void terracotta(brush *p, float rgba[4])
 {
+    const float u = p->u, v = p->v;
     static const float clay[3] = { 0.47f, 0.23f, 0.13f }, gap[3] = { 0.30f, 0.25f, 0.20f };
     const float x = 4.0f * u, y = 4.0f * v;
     const int ix = (int) x, iy = (int) y;
     const float fx = x - (float) ix, fy = y - (float) iy;
     const float edge = fminf(fminf(fx, 1.0f - fx), fminf(fy, 1.0f - fy));
-    const float grain = cloud(u, v, 10, 161);
+    const float grain = cloud(p, 10, 161);
     tint(clay, 0.75f + 0.35f * hash_unit(ix, iy, 171) + 0.30f * (grain - 0.5f), rgba);
     blend(rgba, gap, 1.0f - step_smooth(0.012f, 0.030f, edge));
 }
 
-static void clay(float u, float v, float rgba[4])
+static void clay(brush *p, float rgba[4])
 {
     static const float base[3] = { 0.48f, 0.24f, 0.14f }, lichen[3] = { 0.40f, 0.36f, 0.25f };
-    const float a = cloud(u, v, 5, 181), b = cloud(u, v, 9, 191);
-    tint(base, 0.85f + 0.5f * (a - 0.5f) + 0.12f * (noise(u, v, 64, 64, 201) - 0.5f), rgba);
+    const float a = cloud(p, 5, 181), b = cloud(p, 9, 191);
+    tint(base, 0.85f + 0.5f * (a - 0.5f) + 0.12f * (noise(p, 64, 64, 201) - 0.5f), rgba);
     blend(rgba, lichen, 0.5f * step_smooth(0.58f, 0.72f, b));
 }
 
-static void wood(float u, float v, float rgba[4])
+static void wood(brush *p, float rgba[4])
 {
+    const float u = p->u;
     static const float heart[3] = { 0.38f, 0.24f, 0.14f };
     const float x = 5.0f * u;
     const int plank = (int) x;
     const float edge = fminf(x - (float) plank, (float) (plank + 1) - x);
-    const float fibre = noise(u, v, 90, 4, 211u), wide = noise(u, v, 24, 3, 221u);
+    const float fibre = noise(p, 90, 4, 211u), wide = noise(p, 24, 3, 221u);
     const float own = hash_unit(plank, 0, 231);
     tint(heart, 0.75f + 0.35f * own + 0.35f * (fibre - 0.5f) + 0.35f * (wide - 0.5f), rgba);
     const float seam = step_smooth(0.010f, 0.035f, edge);
     tint((const float[3]){ rgba[0], rgba[1], rgba[2] }, 0.45f + 0.55f * seam, rgba);
 }
 
-static void fabric(float u, float v, float rgba[4])
+static void fabric(brush *p, float rgba[4])
 {
+    const float u = p->u, v = p->v;
     // Warp over weft in turn, 64 threads a side, with a woven lozenge figure.
     const float x = 64.0f * u, y = 64.0f * v;
     const float fx = x - (float) (int) x - 0.5f, fy = y - (float) (int) y - 0.5f;
@@ -193,8 +239,7 @@ static void fabric(float u, float v, float rgba[4])
     const float lx = fabsf(4.0f * u - (float) (int) (4.0f * u) - 0.5f);
     const float ly = fabsf(2.0f * v - (float) (int) (2.0f * v) - 0.5f);
     const float figure = step_smooth(0.03f, 0.05f, fabsf(lx + ly - 0.5f));
-    const float shade =
-        (0.80f + 0.12f * figure) * thread * (0.92f + 0.16f * noise(u, v, 16, 64, 241));
+    const float shade = (0.80f + 0.12f * figure) * thread * (0.92f + 0.16f * noise(p, 16, 64, 241));
     tint((const float[3]){ 1.0f, 1.0f, 1.0f }, clamp01(shade), rgba);
 }
 
@@ -210,8 +255,9 @@ static float leaf_inside(float x, float y)
     return clamp01(1.0f - fabsf(x) / half);
 }
 
-static void leaves(float u, float v, float rgba[4])
+static void leaves(brush *p, float rgba[4])
 {
+    const float u = p->u, v = p->v;
     // Nine leaves around the card's middle; the last ones lie on top.
     static const float leaf[9][4] = {
         // foot x, foot y, direction cos, sin; length below
@@ -233,13 +279,13 @@ static void leaves(float u, float v, float rgba[4])
         if (inside <= 0.0f)
             continue;
         const float own = 0.65f + 0.7f * hash_unit(i, 1, 251);
-        tint(green, own * (0.8f + 0.4f * noise(u, v, 48, 48, 261)), rgba);
+        tint(green, own * (0.8f + 0.4f * noise(p, 48, 48, 261)), rgba);
         blend(rgba, rib, 0.8f * step_smooth(0.90f, 0.97f, inside));
         rgba[3] = 1.0f;
     }
 }
 
-static void (*const painters[PATTERN_COUNT])(float u, float v, float rgba[4]) = {
+static void (*const painters[PATTERN_COUNT])(brush *p, float rgba[4]) = {
     [PATTERN_ASHLAR] = ashlar, [PATTERN_LIMESTONE] = limestone, [PATTERN_PLASTER] = plaster,
     [PATTERN_BRICK] = bricks,  [PATTERN_PAVING] = paving,       [PATTERN_TERRACOTTA] = terracotta,
     [PATTERN_CLAY] = clay,     [PATTERN_WOOD] = wood,           [PATTERN_FABRIC] = fabric,
@@ -258,17 +304,50 @@ static void encode_table(uint8_t table[ENCODE_STEPS + 1])
     }
 }
 
-void pattern_paint(pattern what, int size, uint8_t *rgba)
+// Rows `first` to `last` - 1 of a picture: what one thread paints.
+typedef struct stripe {
+    pattern what;
+    int size, first, last;
+    const uint8_t *encoded; // [ENCODE_STEPS + 1]
+    uint8_t *rgba;          // the whole picture
+} stripe;
+
+static void *paint_stripe(void *user)
 {
-    uint8_t table[ENCODE_STEPS + 1];
-    encode_table(table);
-    for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
+    const stripe *s = user;
+    brush p = { 0 };
+    uint8_t *out = s->rgba + 4 * (ptrdiff_t) s->size * s->first;
+    for (int y = s->first; y < s->last; ++y) {
+        for (int x = 0; x < s->size; ++x) {
             float c[4] = { 0.0f, 0.0f, 0.0f, 1.0f };
-            painters[what](((float) x + 0.5f) / (float) size, ((float) y + 0.5f) / (float) size, c);
+            p.u = ((float) x + 0.5f) / (float) s->size;
+            p.v = ((float) y + 0.5f) / (float) s->size;
+            painters[s->what](&p, c);
             for (int i = 0; i < 3; ++i)
-                *rgba++ = table[(int) (clamp01(c[i]) * ENCODE_STEPS + 0.5f)];
-            *rgba++ = (uint8_t) (255.0f * c[3]);
+                *out++ = s->encoded[(int) (clamp01(c[i]) * ENCODE_STEPS + 0.5f)];
+            *out++ = (uint8_t) (255.0f * c[3]);
         }
     }
+    return NULL;
+}
+
+void pattern_paint(pattern what, int size, uint8_t *rgba)
+{
+    enum { THREADS = 4 };
+    uint8_t table[ENCODE_STEPS + 1];
+    stripe stripes[THREADS];
+    pthread_t threads[THREADS];
+    bool started[THREADS] = { false };
+    encode_table(table);
+    for (int i = THREADS - 1; i >= 0; --i) {
+        stripes[i] =
+            (stripe){ what, size, size * i / THREADS, size * (i + 1) / THREADS, table, rgba };
+        // The first is painted here, and so is one that gets no thread.
+        started[i] = i > 0 && !pthread_create(&threads[i], NULL, paint_stripe, &stripes[i]);
+        if (!started[i])
+            paint_stripe(&stripes[i]);
+    }
+    for (int i = 0; i < THREADS; ++i)
+        if (started[i])
+            pthread_join(threads[i], NULL);
 }
