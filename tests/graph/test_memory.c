@@ -313,6 +313,71 @@ static void switching_between_graphs_does_not_grow_memory(void **state) // C68, 
     rig_close(r);
 }
 
+typedef struct head {
+    fg_res a, b;
+    uint32_t object[2];
+} head;
+
+static fg_status note_head(const fg_run *run, void *user)
+{
+    head *h = user;
+    h->object[0] = fg_run_object(run, h->a);
+    h->object[1] = fg_run_object(run, h->b);
+    return FG_OK;
+}
+
+// What comes first, then a chain of `count` textures of the same shape beginning at its end.
+static void declare_head_and_tail(rig *r, head *h, int count)
+{
+    rig_begin(r);
+    h->a = rig_tex(r, "head.a");
+    h->b = rig_tex(r, "head.b");
+    const fg_pass_desc first = {
+        .name = "head", .writes = { { h->a }, { h->b } }, .run = note_head, .user = h
+    };
+    fg_passes(r->g, &first, 1);
+    fg_res before = h->a;
+    for (int i = 0; i < count; i++) {
+        char pass[32], tex[32];
+        snprintf(pass, sizeof pass, "tail%d.p%d", count, i);
+        snprintf(tex, sizeof tex, "tail%d.t%d", count, i);
+        const fg_res made = rig_tex(r, tex);
+        PASSES(r, PASS(r, pass, .reads = { { before } }, .writes = { { made } }));
+        before = made;
+    }
+    PASSES(r, PASS(r, "show", SHOW, .reads = { { before }, { h->b } }));
+}
+
+static void passes_that_stay_keep_their_objects(void **state)
+{
+    (void) state;
+    static const int tails[] = { 4, 1, 7, 0, 2, 7, 1, 4 };
+    rig *r = rig_open(0);
+    head h = { .object = { 0 } };
+    uint32_t object[2] = { 0 };
+    for (int i = 0; i < FG_COUNT(tails); i++) {
+        declare_head_and_tail(r, &h, tails[i]);
+        rig_must_compile(r);
+        fg_graph_trim(r->g);
+        const char *log = fg_null_log(r->dev);
+        for (int k = 0; k < 2 && i > 0; k++) {
+            char gone[32];
+            snprintf(gone, sizeof gone, "destroy texture %u\n", object[k]);
+            assert_null(strstr(log, gone));
+        }
+        rig_must_run(r);
+        assert_true(i == 0 || !strstr(fg_null_log(r->dev), "texture head."));
+        for (int k = 0; k < 2; k++) {
+            assert_true(i == 0 || object[k] == h.object[k]);
+            object[k] = h.object[k];
+        }
+        // What the tail before had besides is gone.
+        const fg_graph_stats stats = fg_graph_get_stats(r->g);
+        assert_int_equal(stats.pool_bytes, stats.transient_bytes);
+    }
+    rig_close(r);
+}
+
 static void poison_fills_transients_before_their_first_use(void **state) // C68
 {
     (void) state;
@@ -349,6 +414,7 @@ int main(void)
         cmocka_unit_test(resize_frees_the_old_size),
         cmocka_unit_test(changing_one_size_reallocates_it_and_the_old_one_goes_with_time),
         cmocka_unit_test(switching_between_graphs_does_not_grow_memory),
+        cmocka_unit_test(passes_that_stay_keep_their_objects),
         cmocka_unit_test(poison_fills_transients_before_their_first_use),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

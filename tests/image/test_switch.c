@@ -2,6 +2,8 @@
 // Techniques that change between two frames, two side by side, and techniques that fail.
 #include "fixture.h"
 
+#include <epoxy/gl.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -192,6 +194,78 @@ static void exposure_changes_without_a_compile(void **state)
     assert_int_equal(renderer_set_exposure(r, -1), FG_ERR_INVALID);
     assert_int_equal(renderer_set_exposure(r, NAN), FG_ERR_INVALID);
     image_finish(&after);
+    renderer_destroy(r);
+    ag_scene_destroy(scene);
+}
+
+// ---- what a switch keeps ---------------------------------------------------------------------
+
+enum { MAX_KEPT = 16 };
+static const char *const techniques[] = { "rsm", "isr", "hisr", "iir", "splat" };
+
+// Textures of passes before the plugin. OpenGL gives the name of a texture that was deleted to the
+// next: a label tells whether it is the same still.
+typedef struct kept {
+    char name[MAX_KEPT][32];
+    uint32_t object[MAX_KEPT];
+    int count;
+} kept;
+
+static void note_kept(void *user, const fg_written *written)
+{
+    kept *k = user;
+    char label[64] = "";
+    for (int i = 0; i < k->count; i++)
+        if (!strcmp(k->name[i], written->resource)) {
+            assert_int_equal(k->object[i], written->object);
+            glGetObjectLabel(GL_TEXTURE, written->object, sizeof label, NULL, label);
+            assert_string_equal(label, "kept");
+            return;
+        }
+    if (strncmp(written->pass, "gbuffer.", 8) != 0 && strncmp(written->pass, "shadow.", 7) != 0 &&
+        strncmp(written->pass, "direct.", 7) != 0)
+        return;
+    assert_true(k->count < MAX_KEPT);
+    snprintf(k->name[k->count], sizeof k->name[0], "%s", written->resource);
+    k->object[k->count++] = written->object;
+    glObjectLabel(GL_TEXTURE, written->object, -1, "kept");
+}
+
+static void passes_before_the_plugin_keep_their_textures(void **state)
+{
+    (void) state;
+    ag_scene *scene = lit_room();
+    kept k = { .count = 0 };
+    const renderer_desc desc = { .log = test_log(),
+                                 .device = device(),
+                                 .scene = scene,
+                                 .width = W,
+                                 .height = H,
+                                 .strict = true,
+                                 .inspect = note_kept,
+                                 .inspect_user = &k };
+    renderer *r = NULL;
+    log_clear();
+    assert_int_equal(renderer_create(&desc, &r), FG_OK);
+    for (int i = 0; i < FG_COUNT(techniques); i++) {
+        gi_value few[MAX_VALUES];
+        const char *const next = techniques[(i + 2) % FG_COUNT(techniques)];
+        set(plugin_named("iir"), few, "max_lights=16");
+        const renderer_side second = { .plugin = plugin_named("iir"), .values = few };
+        if (strcmp(techniques[i], "iir") != 0)
+            assert_int_equal(renderer_set_plugin(r, plugin_named(techniques[i]), NULL), FG_OK);
+        else
+            assert_int_equal(renderer_set_plugin(r, plugin_named("iir"), few), FG_OK);
+        run(r, 0);
+        assert_int_equal(renderer_set_plugin(r, i % 2 ? NULL : plugin_named(next), NULL), FG_OK);
+        run(r, 0);
+        // Split and joined: the second side comes after both.
+        assert_int_equal(renderer_set_split(r, &second), FG_OK);
+        run(r, 0);
+        assert_int_equal(renderer_set_split(r, NULL), FG_OK);
+        run(r, 0);
+    }
+    assert_true(k.count >= 7); // five of the G-buffer, shadow maps, direct light
     renderer_destroy(r);
     ag_scene_destroy(scene);
 }
@@ -474,6 +548,7 @@ int main(void)
         cmocka_unit_test(second_side_is_direct_light_without_a_plugin),
         cmocka_unit_test(a_split_that_ends_frees_its_half),
         cmocka_unit_test(exposure_changes_without_a_compile),
+        cmocka_unit_test(passes_before_the_plugin_keep_their_textures),
         cmocka_unit_test(a_plugin_that_fails_leaves_direct_light_in_the_same_frame),
         cmocka_unit_test(a_plugin_that_does_not_start_is_told_of),
         cmocka_unit_test(layers_of_a_dropped_plugin_are_missed_by_nobody),
