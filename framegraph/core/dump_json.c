@@ -106,29 +106,3 @@ void fg_dump_json(const fg_graph *g, text *t)
                 (unsigned long long) s.transient_bytes, (unsigned long long) s.unshared_bytes,
                 (unsigned long long) s.live_bytes, (unsigned long long) s.persistent_bytes);
 }
-
-// A complete event of the Chrome trace format; times in microseconds.
-static void put_event(text *t, const char *name, int thread, double start_ms, double ms)
-{
-    fg_text_put(t, ",\n  {\"name\": ");
-    fg_text_string(t, name);
-    fg_text_put(t, ", \"ph\": \"X\", \"pid\": 1, \"tid\": %d, \"ts\": %.3f, \"dur\": %.3f}", thread,
-                start_ms * 1e3, ms * 1e3);
-}
-
-void fg_dump_trace(const fg_graph *g, text *t)
-{
-    fg_text_put(t, "{\"traceEvents\": [\n"
-                   "  {\"name\": \"thread_name\", \"ph\": \"M\", \"pid\": 1, \"tid\": 1, \"args\": "
-                   "{\"name\": \"CPU\"}},\n"
-                   "  {\"name\": \"thread_name\", \"ph\": \"M\", \"pid\": 1, \"tid\": 2, \"args\": "
-                   "{\"name\": \"GPU\"}}");
-    fg_timing time;
-    for (int i = 0; fg_graph_timing(g, i, &time); i++) {
-        if ((uint32_t) i < g->time_count)
-            put_event(t, time.pass, 1, time.cpu_start_ms, time.cpu_ms);
-        if (time.gpu_ms >= 0)
-            put_event(t, time.pass, 2, time.gpu_start_ms, time.gpu_ms);
-    }
-    fg_text_put(t, "\n]}\n");
-}

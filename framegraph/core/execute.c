@@ -7,11 +7,11 @@
 // Every consumer: after another plan's writes, or a pass that is off.
 enum { ALL_BITS = 2 * FG_BARRIER_COPY - 1 };
 
-static double now_ms(void)
+int64_t fg_now_ns(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double) t.tv_sec * 1e3 + (double) t.tv_nsec * 1e-6;
+    return (int64_t) t.tv_sec * 1000000000 + t.tv_nsec;
 }
 
 // ---- one pass ---------------------------------------------------------------------------
@@ -169,8 +169,7 @@ static fg_status run_steps(fg_graph *g)
     fg_pass_begin begin;
     memset(&begin, 0, sizeof begin);
     const bool timed = g->device->ops->timing;
-    const double start = timed ? now_ms() : 0;
-    double before = start;
+    int64_t before = timed ? fg_now_ns() : 0;
     g->time_count = 0;
     for (uint32_t i = 0; i < g->plan->step_count; i++) {
         const fg_status status = run_step(g, i, &begin);
@@ -178,8 +177,8 @@ static fg_status run_steps(fg_graph *g)
             return status;
         if (!timed)
             continue;
-        const double after = now_ms();
-        g->time[i] = (step_time){ before - start, after - before };
+        const int64_t after = fg_now_ns();
+        g->time[i] = (step_time){ before, after };
         before = after;
     }
     g->time_count = timed ? g->plan->step_count : 0;
@@ -223,7 +222,10 @@ fg_status fg_graph_run(fg_graph *g)
                          g->running ? "while the graph runs" : "before a graph has compiled");
     g->running = true;
     g->disturbed = false;
+    const bool timed = g->device->ops->timing;
+    g->run_begin = timed ? fg_now_ns() : 0;
     const fg_status status = run_frame(g);
+    g->run_end = timed ? fg_now_ns() : 0;
     g->running = false;
     g->frame++;
     g->ran |= g->bound;
@@ -347,8 +349,8 @@ bool fg_graph_timing(const fg_graph *g, int i, fg_timing *out)
         out->frame = frame;
     }
     if ((uint32_t) i < g->time_count) {
-        out->cpu_start_ms = g->time[i].start_ms;
-        out->cpu_ms = g->time[i].ms;
+        out->cpu_start_ms = (double) (g->time[i].begin - g->run_begin) * 1e-6;
+        out->cpu_ms = (double) (g->time[i].end - g->time[i].begin) * 1e-6;
     }
     return true;
 }

@@ -33,6 +33,7 @@ bool fg_grow(const fg_allocator *a, void **array, uint32_t *cap, uint64_t need, 
 void *fg_alloc(const fg_allocator *a, size_t size);
 void fg_release(const fg_allocator *a, void *ptr);
 uint32_t fg_hash(const void *bytes, size_t size);
+int64_t fg_now_ns(void); // CLOCK_MONOTONIC
 
 #define GROW(g, array, cap, need)                                                                  \
     ((uint64_t) (need) <= (cap) ||                                                                 \
@@ -261,8 +262,8 @@ typedef struct history_rec {
 
 // ---- graph ------------------------------------------------------------------------------
 
-typedef struct step_time {
-    double start_ms, ms;
+typedef struct step_time { // ns of CLOCK_MONOTONIC
+    int64_t begin, end;
 } step_time;
 
 struct fg_graph {
@@ -321,6 +322,7 @@ struct fg_graph {
 
     step_time *time;
     uint32_t time_cap, time_count;
+    int64_t run_begin, run_end; // of the last fg_graph_run(); 0 where the device times nothing
 
     char **off; // names of disabled passes
     uint32_t off_count, off_cap;

@@ -307,6 +307,7 @@ static const fg_device_ops ops = {
     .pass_begin = pass_begin,
     .pass_end = pass_end,
     .timing = gl_timers_read,
+    .time_of = gl_timers_of,
     .reset = reset,
     .destroy = destroy,
 };
@@ -362,6 +363,7 @@ fg_status fg_gl_device_create(const fg_gl_device_desc *desc, fg_device **out)
     begin_device(d);
     d->software = gl_is_software(d->renderer);
     d->timers.on_cpu = d->software && !desc->timestamps;
+    gl_timers_set_clock(d);
     d->programs = gl_programs_create(d, desc);
     if (!d->programs) {
         fg_logf(desc->log, FG_LOG_ERROR, "gl device: out of memory");

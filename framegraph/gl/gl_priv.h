@@ -47,22 +47,25 @@ typedef struct gl_timer_frame {
     bool *issued;
     GLuint last; // the query issued last: once it is there all are
     uint64_t frame;
+    struct gl_timer_result *results; // of what has come back, until the place is used again
 } gl_timer_frame;
 
 typedef struct gl_timer_result {
-    double start_ms, ms;
+    uint64_t begin, end; // ns of the device's clock
+    uint64_t first;      // when the first pass of the frame began
     uint64_t frame;
     bool valid;
 } gl_timer_result;
 
 typedef struct gl_timers {
     bool on_cpu;                       // passes are timed by the clock, see gl_timer.c
+    int64_t clock_ahead;               // CLOCK_MONOTONIC minus the device's clock, ns
     uint64_t frame, frame_ns, pass_ns; // then: the frame under way, its start, the pass's
     gl_timer_frame frames[GL_TIMER_FRAMES];
-    gl_timer_result *results;
-    int capacity; // timers that the arrays hold
-    int current;  // frame being recorded; -1: none
-    int next;     // frame to be recorded next
+    gl_timer_result *results; // the newest of each timer
+    int capacity;             // timers that the arrays hold
+    int current;              // frame being recorded; -1: none
+    int next;                 // frame to be recorded next
 } gl_timers;
 
 // ---- device ---------------------------------------------------------------------
@@ -132,6 +135,8 @@ void gl_timers_end_frame(gl_device *d);
 void gl_timers_mark(gl_device *d, int timer, bool end);
 void gl_timers_collect(gl_device *d); // takes what has come back; never waits
 bool gl_timers_read(fg_device *dev, int timer, double *start_ms, double *ms, uint64_t *frame);
+bool gl_timers_of(fg_device *dev, int timer, uint64_t frame, int64_t *begin, int64_t *end);
+void gl_timers_set_clock(gl_device *d); // once on_cpu is known
 void gl_timers_forget(gl_device *d);
 void gl_timers_destroy(gl_device *d);
 

@@ -5,6 +5,12 @@
 #include <string.h>
 #include <time.h>
 
+static void forget_results(const gl_timers *t, gl_timer_result *results)
+{
+    if (results)
+        memset(results, 0, (size_t) t->capacity * sizeof *results);
+}
+
 void gl_timers_forget(gl_device *d)
 {
     gl_timers *t = &d->timers;
@@ -12,24 +18,25 @@ void gl_timers_forget(gl_device *d)
         t->frames[i].last = 0;
         if (t->frames[i].issued)
             memset(t->frames[i].issued, 0, (size_t) t->capacity * sizeof *t->frames[i].issued);
+        forget_results(t, t->frames[i].results);
     }
-    if (t->results)
-        memset(t->results, 0, (size_t) t->capacity * sizeof *t->results);
+    forget_results(t, t->results);
     t->current = -1;
 }
 
 void gl_timers_destroy(gl_device *d)
 {
     gl_timers *t = &d->timers;
-    const bool on_cpu = t->on_cpu;
+    const gl_timers kept = { .on_cpu = t->on_cpu, .clock_ahead = t->clock_ahead, .current = -1 };
     for (int i = 0; i < GL_TIMER_FRAMES; ++i) {
         if (t->frames[i].queries)
             glDeleteQueries(2 * t->capacity, t->frames[i].queries);
         free(t->frames[i].queries);
         free(t->frames[i].issued);
+        free(t->frames[i].results);
     }
     free(t->results);
-    *t = (gl_timers){ .on_cpu = on_cpu, .current = -1 };
+    *t = kept;
 }
 
 // Called in the first frame after a compile that brought more passes; what is under way is lost.
@@ -48,7 +55,8 @@ static fg_status grow(gl_device *d, int timers)
         gl_timer_frame *f = &t->frames[i];
         f->queries = calloc(2 * n, sizeof *f->queries);
         f->issued = calloc(n, sizeof *f->issued);
-        ok = ok && f->queries && f->issued;
+        f->results = calloc(n, sizeof *f->results);
+        ok = ok && f->queries && f->issued && f->results;
     }
     t->capacity = ok ? capacity : 0;
     if (!ok) {
@@ -77,16 +85,14 @@ static void read_frame(gl_timers *t, gl_timer_frame *f)
         const GLuint *pair = f->queries + 2 * (size_t) i;
         const uint64_t begin = query_ns(pair[0]), end = query_ns(pair[1]);
         first = begin < first ? begin : first;
-        t->results[i] = (gl_timer_result){
-            .start_ms = (double) begin, // made relative below
-            .ms = end > begin ? (double) (end - begin) * 1e-6 : 0.0,
-            .frame = f->frame,
-            .valid = true,
+        f->results[i] = (gl_timer_result){
+            .begin = begin, .end = end > begin ? end : begin, .frame = f->frame, .valid = true
         };
     }
     for (int i = 0; i < t->capacity; ++i) {
+        f->results[i].first = first;
         if (f->issued[i])
-            t->results[i].start_ms = (t->results[i].start_ms - (double) first) * 1e-6;
+            t->results[i] = f->results[i];
         f->issued[i] = false;
     }
     f->last = 0;
@@ -126,6 +132,7 @@ fg_status gl_timers_begin_frame(gl_device *d, uint64_t frame, int timers)
     t->current = t->next;
     t->next = (t->next + 1) % GL_TIMER_FRAMES;
     t->frames[t->current].frame = frame;
+    forget_results(t, t->frames[t->current].results);
     return FG_OK;
 }
 
@@ -134,25 +141,44 @@ void gl_timers_end_frame(gl_device *d)
     d->timers.current = -1;
 }
 
+static uint64_t clock_ns(void)
+{
+    struct timespec clock;
+    clock_gettime(CLOCK_MONOTONIC, &clock);
+    return (uint64_t) clock.tv_sec * 1000000000u + (uint64_t) clock.tv_nsec;
+}
+
+// The GPU's clock is read between two readings of the CPU's; the closest of some is taken.
+void gl_timers_set_clock(gl_device *d)
+{
+    enum { TRIES = 5 };
+    uint64_t closest = UINT64_MAX;
+    for (int i = 0; i < TRIES && !d->timers.on_cpu; ++i) {
+        GLint64 gpu = 0;
+        const uint64_t before = clock_ns();
+        glGetInteger64v(GL_TIMESTAMP, &gpu);
+        const uint64_t apart = clock_ns() - before;
+        if (apart < closest) {
+            closest = apart;
+            d->timers.clock_ahead = (int64_t) (before + apart / 2) - (int64_t) gpu;
+        }
+    }
+}
+
 // A software renderer puts timestamps into its rasteriser's queue, past which compute shaders run:
 // their passes would take no time. The CPU is the device then, so that waiting for it at both ends
 // of a pass idles nothing.
 static void mark_on_cpu(gl_timers *t, int timer, bool end)
 {
-    struct timespec clock;
     glFinish();
-    clock_gettime(CLOCK_MONOTONIC, &clock);
-    const uint64_t now = (uint64_t) clock.tv_sec * 1000000000u + (uint64_t) clock.tv_nsec;
+    const uint64_t now = clock_ns();
     if (!t->frame_ns)
         t->frame_ns = now;
     if (!end)
         t->pass_ns = now;
     else
         t->results[timer] = (gl_timer_result){
-            .start_ms = (double) (t->pass_ns - t->frame_ns) * 1e-6,
-            .ms = (double) (now - t->pass_ns) * 1e-6,
-            .frame = t->frame,
-            .valid = true,
+            .begin = t->pass_ns, .end = now, .first = t->frame_ns, .frame = t->frame, .valid = true
         };
 }
 
@@ -179,8 +205,24 @@ bool gl_timers_read(fg_device *dev, int timer, double *start_ms, double *ms, uin
     const gl_timers *t = &((gl_device *) dev)->timers;
     if (timer < 0 || timer >= t->capacity || !t->results[timer].valid)
         return false;
-    *start_ms = t->results[timer].start_ms;
-    *ms = t->results[timer].ms;
-    *frame = t->results[timer].frame;
+    const gl_timer_result *r = &t->results[timer];
+    *start_ms = (double) (r->begin - r->first) * 1e-6;
+    *ms = (double) (r->end - r->begin) * 1e-6;
+    *frame = r->frame;
+    return true;
+}
+
+bool gl_timers_of(fg_device *dev, int timer, uint64_t frame, int64_t *begin, int64_t *end)
+{
+    const gl_timers *t = &((gl_device *) dev)->timers;
+    if (timer < 0 || timer >= t->capacity)
+        return false;
+    const gl_timer_result *r = &t->results[timer];
+    for (int i = 0; i < GL_TIMER_FRAMES && !(r->valid && r->frame == frame); ++i)
+        r = &t->frames[i].results[timer];
+    if (!r->valid || r->frame != frame)
+        return false;
+    *begin = (int64_t) r->begin + t->clock_ahead;
+    *end = (int64_t) r->end + t->clock_ahead;
     return true;
 }

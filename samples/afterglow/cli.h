@@ -43,7 +43,7 @@ typedef struct options {
     const char *layer, *format, *filter, *budget; // NULL: not given
     const char *plugin_dir[CLI_MAX_FOLDERS + 1];  // ends at NULL
     int plugin_dir_count;
-    const char *output, *stats, *shader_dir, *camera, *params;
+    const char *output, *stats, *trace, *shader_dir, *camera, *params;
     int render_scale; // 0: not given; 1, 2 or 4
     bool camera_at_given;
     double eye[3], target[3], fov; // degrees

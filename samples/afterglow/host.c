@@ -487,6 +487,18 @@ int host_check_output(cli *c, const options *o, bool picture)
     return cli_status(c, file_check(&c->log, o->output));
 }
 
+int host_check_trace(cli *c, const options *o)
+{
+    if (!o->trace)
+        return EXIT_DONE;
+    if (o->output && !strcmp(o->trace, o->output))
+        return cli_fail(c, EXIT_USAGE, "--trace: is '%s', which is where the picture goes",
+                        o->trace);
+    if (o->stats && !strcmp(o->trace, o->stats))
+        return cli_fail(c, EXIT_USAGE, "--trace: is '%s', which is where --stats goes", o->trace);
+    return cli_status(c, file_check(&c->log, o->trace));
+}
+
 int host_check_folder(cli *c, const options *o)
 {
     char probe[4096];

@@ -83,6 +83,8 @@ FG_NODISCARD fg_status host_frame(host *h, renderer *r, double time);
 image_kind host_layer_kind(renderer_layer layer);
 // -o: there, with an extension of a picture where `picture`, and writable.
 int host_check_output(cli *c, const options *o, bool picture);
+// --trace, if it is given: writable, and no other file of this command.
+int host_check_trace(cli *c, const options *o);
 // -o as a folder: made, and writable.
 int host_check_folder(cli *c, const options *o);
 

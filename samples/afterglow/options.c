@@ -122,6 +122,7 @@ typedef enum option_id {
     OPT_STUDY,
     OPT_OUTPUT,
     OPT_STATS,
+    OPT_TRACE,
     OPT_PLUGIN_DIR,
     OPT_SHADER_DIR,
     OPT_PARAMS,
@@ -181,6 +182,8 @@ static const option table[] = {
       "where the result goes; FILE is a folder where there are several" },
     { OPT_STATS, "--stats", NULL, "FILE", "",
       "JSON: frame and per-pass times, counters, memory, what was left out" },
+    { OPT_TRACE, "--trace", NULL, "FILE", "",
+      "every frame's passes on CPU and GPU, for ui.perfetto.dev or chrome://tracing" },
     { OPT_PLUGIN_DIR, "--plugin-dir", NULL, "DIR", "a folder, at most 16 times",
       "a folder to look for plugins in first; may be given again, the first that has one wins" },
     { OPT_SHADER_DIR, "--shader-dir", NULL, "DIR", "",
@@ -296,6 +299,7 @@ static bool apply_word(options *o, option_id id, const char *v)
     case OPT_BUDGET: return set_text(v, &o->budget);
     case OPT_OUTPUT: return set_text(v, &o->output);
     case OPT_STATS: return set_text(v, &o->stats);
+    case OPT_TRACE: return set_text(v, &o->trace);
     case OPT_PLUGIN_DIR: return add_word(o->plugin_dir, &o->plugin_dir_count, CLI_MAX_FOLDERS, v);
     case OPT_SHADER_DIR: return set_text(v, &o->shader_dir);
     case OPT_PARAMS: return set_text(v, &o->params);

@@ -2,6 +2,7 @@
 #include "record.h"
 
 #include "file.h"
+#include "trace.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -90,6 +91,7 @@ fg_status timing_frame(timing *t, fg_device *device, renderer *r, double time)
     t->frame[t->count] = now_ms() - start;
     t->cpu[t->count] = submitted - start;
     take_passes(t, renderer_graph(r));
+    trace_frame(t->trace, r);
     ++t->count;
     return FG_OK;
 }
@@ -97,6 +99,8 @@ fg_status timing_frame(timing *t, fg_device *device, renderer *r, double time)
 fg_status timing_run(timing *t, fg_device *device, renderer *r, int frame, int frames)
 {
     fg_status status = renderer_frame(r, (frame + 1) / 60.0); // warm-up
+    if (status == FG_OK)
+        trace_frame(t->trace, r);
     for (int i = 1; i <= frames && status == FG_OK; ++i)
         status = timing_frame(t, device, r, (frame + 1 + i) / 60.0);
     return status;

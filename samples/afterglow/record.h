@@ -10,6 +10,7 @@
 // Times of frames. Grows by timing_run(); all in milliseconds.
 enum { TIMING_MAX_PASSES = 128 };
 typedef struct timing {
+    struct trace *trace; // trace.h: gets the frames, too; borrowed, may be NULL
     int capacity, count;
     double *frame; // [capacity] from before the frame to after the GPU has done it
     double *cpu;   // [capacity] of renderer_frame() alone

@@ -406,6 +406,11 @@ fg_graph *renderer_graph(renderer *r)
     return r->graph;
 }
 
+const gi_plugin *renderer_plugin(const renderer *r, int side)
+{
+    return side < r->sides ? r->side[side].plugin : NULL;
+}
+
 int renderer_counters(renderer *r, gi_counter *out, int max)
 {
     const branch *b = &r->side[0];

@@ -105,6 +105,8 @@ uint32_t renderer_texture(renderer *r, renderer_layer layer);
 uint32_t renderer_second_texture(renderer *r, renderer_layer layer);
 
 fg_graph *renderer_graph(renderer *r);
+// What a side shows, 0 or 1; NULL: direct light alone, or there is no such side.
+const gi_plugin *renderer_plugin(const renderer *r, int side);
 int renderer_counters(renderer *r, gi_counter *out, int max);
 
 FG_END

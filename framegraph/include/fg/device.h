@@ -98,6 +98,11 @@ typedef struct fg_device_ops {
     // Forgets framebuffers and timers of the graph that is going or has recompiled.
     void (*reset)(fg_device *dev);
     void (*destroy)(fg_device *dev);
+
+    // Begin and end of a timer in one of the last frames, ns of CLOCK_MONOTONIC: as far as a device
+    // has a clock of its own, it was set when the device was created. false where the frame has not
+    // come back yet, was not timed or is too long ago. Never waits. Optional.
+    bool (*time_of)(fg_device *dev, int timer, uint64_t frame, int64_t *begin, int64_t *end);
 } fg_device_ops;
 
 struct fg_device {

@@ -329,7 +329,7 @@ typedef enum fg_dump {
     FG_DUMP_TEXT = 0, // passes in order, accesses, lifetimes, memory, what was left out and why
     FG_DUMP_DOT,      // Graphviz
     FG_DUMP_JSON,
-    FG_DUMP_TRACE, // Chrome trace events of the last timings
+    FG_DUMP_TRACE, // the last frame's timings as Chrome trace events; fg/trace.h is for many frames
 } fg_dump;
 
 // The compiled graph as text, owned by the caller: free it with fg_dump_free().
