@@ -17,7 +17,7 @@ static int check(cli *c, const options *o)
     return o->output ? host_check_folder(c, o) : EXIT_DONE;
 }
 
-static int open(host *h, options *o, setting *settings, int *count)
+static int open_inputs(host *h, options *o, setting *settings, int *count)
 {
     int code = host_open_registry(h);
     if (code == EXIT_DONE && !o->gi_count && default_plugin(h))
@@ -34,9 +34,10 @@ static int run(cli *c, const options *given)
     setting settings[CLI_MAX_GI];
     view_start start = { .settings = settings, .params = o.params, .started_ms = now_ms() };
     host_init(&h, c, &o);
+    h.hot = true;
     int code = check(c, &o);
     if (code == EXIT_DONE)
-        code = open(&h, &o, settings, &start.count);
+        code = open_inputs(&h, &o, settings, &start.count);
     if (code == EXIT_DONE)
         code = view_run(&h, &start);
     for (int i = 0; i < start.count; ++i)

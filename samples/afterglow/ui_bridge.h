@@ -67,7 +67,7 @@ typedef enum ui_color {
 } ui_color;
 
 void ui_text(ui_color color, const char *text);
-void ui_text_wrapped(ui_color color, const char *text);
+void ui_text_wrapped(ui_color color, const char *text, float width); // 0: the window's
 void ui_separator(void);
 void ui_same_line(void);
 void ui_tooltip(const char *text); // of the widget before; NULL: none
@@ -100,7 +100,6 @@ typedef struct ui_curve {
     const char *text;
 } ui_curve;
 void ui_plot(const ui_curve *curve);
-void ui_image(uint32_t texture, float width, float height); // rows from the bottom up
 
 // Columns of the given widths; 0 shares what is left. ui_table_end() follows only if true.
 bool ui_table_begin(const char *id, const float *widths, int count);

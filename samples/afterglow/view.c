@@ -56,6 +56,7 @@ void view_own_camera(view *v)
     view_say(v, FG_LOG_DEBUG, "camera free");
 }
 
+// Where the camera of the next frame stands.
 static ag_camera camera_now(const view *v)
 {
     return v->camera_index >= 0 ? v->h->scene->cameras[v->camera_index]
@@ -87,8 +88,7 @@ static bool create_cameras(view *v)
 static void move_camera(view *v, double seconds)
 {
     const view_input *in = &v->window.in;
-    const bool looks = in->right || v->window.captured;
-    const bool turns = looks && (in->dx != 0 || in->dy != 0);
+    const bool turns = in->dx != 0 || in->dy != 0;
     const bool wheels = in->wheel != 0;
     if (!turns && !wheels && !(in->moves & ~(unsigned) VIEW_MOVE_FAST))
         return;
@@ -113,38 +113,32 @@ void view_frame_size(const view *v, int size[2])
     size[1] = (v->window.height + up) >> v->scale_log2;
 }
 
-// What a frame fails by is taken away until it succeeds: the layer, then the plugin.
+// A plugin that fails the renderer drops by itself; a layer that is not there the viewer.
 static fg_status render(view *v, double seconds)
 {
-    fg_status status = renderer_set_layers(v->r, 1u << v->shown);
+    fg_status status = view_gi_layers(v);
     if (status == FG_OK)
         status = renderer_frame(v->r, seconds);
-    if (status == FG_OK || status == FG_ERR_DEVICE)
+    if (status == FG_OK || status == FG_ERR_DEVICE || v->shown == LAYER_FINAL)
         return status;
-    if (v->shown != LAYER_FINAL) {
-        view_layer_set(v, LAYER_FINAL);
-        v->shown = LAYER_FINAL;
-        status = renderer_set_layers(v->r, 1u << LAYER_FINAL);
-        if (status == FG_OK)
-            status = renderer_frame(v->r, seconds);
-    }
-    if (status == FG_OK || status == FG_ERR_DEVICE)
-        return status;
-    view_say(v, FG_LOG_ERROR, "%s: failed in a frame; direct light alone",
-             view_gi_slot(v, 0)->name);
-    status = renderer_set_plugin(v->r, NULL, NULL);
+    view_layer_set(v, LAYER_FINAL);
+    status = view_gi_layers(v);
     return status == FG_OK ? renderer_frame(v->r, seconds) : status;
 }
 
 static fg_status present(view *v, const ag_camera *camera)
 {
+    const bool split = v->gi.shows_split;
     view_present_desc desc = {
         .left = { renderer_texture(v->r, v->shown), v->shown < LAYER_PLUGIN },
         .width = v->window.width,
         .height = v->window.height,
-        .divider = 1,
+        .divider = split ? v->gi.divider : 1,
         .data = host_layer_kind(v->shown) == IMAGE_DATA,
     };
+    if (split)
+        desc.right = (view_picture){ renderer_second_texture(v->r, v->gi.second),
+                                     v->gi.second < LAYER_PLUGIN };
     if (v->shown == LAYER_POSITION)
         memcpy(desc.origin, camera->world + 12, sizeof desc.origin);
     return view_present(&v->presenter, v->h->device, &desc);
@@ -159,9 +153,12 @@ static fg_status draw_scene(view *v)
         ag_scene_set_time(v->h->scene, seconds); // the camera that is followed stands there, too
     const ag_camera camera = camera_now(v);
     renderer_set_camera(v->r, &camera);
-    // A plugin's layer comes with the plugin.
-    v->shown = v->gi.wanted && v->layer >= LAYER_PLUGIN ? LAYER_FINAL : v->layer;
-    fg_status status = renderer_resize(v->r, size[0], size[1]);
+    fg_status status = renderer_set_exposure(v->r, (float) v->exposure);
+    if (status == FG_OK)
+        status = renderer_resize(v->r, size[0], size[1]);
+    if (size[0] != v->size[0] || size[1] != v->size[1])
+        view_say(v, FG_LOG_DEBUG, "size %d x %d", size[0], size[1]);
+    memcpy(v->size, size, sizeof size);
     const double begin = now_ms();
     if (status == FG_OK)
         status = render(v, seconds);
@@ -184,11 +181,12 @@ static void drag_divider(view *v)
 {
     const view_input *in = &v->window.in;
     const double at = v->gi.divider * v->window.width;
-    if (v->gi.split && in->left_pressed && fabs(in->x - at) < 8 * (double) v->window.scale)
+    if (v->gi.shows_split && in->left_pressed &&
+        fabs(in->press_x - at) < 8 * (double) v->window.scale)
         v->dragging = true;
-    v->dragging = v->dragging && in->left && v->gi.split;
     if (v->dragging && v->window.width > 0)
         v->gi.divider = fmax(0.02, fmin(0.98, in->x / v->window.width));
+    v->dragging = v->dragging && in->left && v->gi.shows_split;
 }
 
 static void report_first(view *v)
@@ -197,8 +195,7 @@ static void report_first(view *v)
     if (v->frames == 1)
         view_say(v, FG_LOG_DEBUG, "first frame after %.0f ms", ms);
     if (!v->gi.ready && !v->gi.wanted) {
-        view_say(v, FG_LOG_DEBUG, "first frame with %s after %.0f ms", view_gi_slot(v, 0)->name,
-                 ms);
+        view_say(v, FG_LOG_DEBUG, "first frame with %s after %.0f ms", view_gi_name(v, 0), ms);
         v->gi.ready = true;
     }
 }
@@ -209,6 +206,7 @@ static fg_status frame(view *v, double seconds)
     drag_divider(v);
     for (int i = 0; i < v->window.in.action_count; ++i)
         view_do(v, v->window.in.actions[i]);
+    view_gi_watch(v);
     if (v->gi.wanted && v->gi.said)
         view_gi_apply(v);
     else if (v->gi.ready)
@@ -216,7 +214,7 @@ static fg_status frame(view *v, double seconds)
     const fg_status status = draw_scene(v);
     if (status != FG_OK)
         return status;
-    v->gi.said = v->gi.wanted;
+    v->gi.said = v->gi.wanted != 0;
     draw_ui(v);
     if (v->window_shot)
         view_shoot_window(v);
@@ -292,28 +290,40 @@ static fg_status open_renderer(view *v)
     return renderer_create(&desc, &v->r);
 }
 
-static int open_all(view *v)
+// Everything that needs the context of the window.
+static int open_screen(view *v)
 {
-    cli *c = v->h->c;
     const options *o = v->h->o;
-    if (!view_gi_create(v) || !create_cameras(v))
-        return cli_status(c, FG_ERR_MEMORY);
-    fg_status status = open_window(v);
-    int code = status == FG_OK ? host_take_context(v->h) : cli_status(c, status);
+    const int code = host_take_context(v->h);
     if (code != EXIT_DONE)
         return code;
     v->ui = true;
     if (!ui_create(v->window.handle))
-        return cli_fail(c, EXIT_FAILED, "view: the panel cannot start: OpenGL cannot be loaded");
+        return cli_fail(v->h->c, EXIT_FAILED,
+                        "view: the panel cannot start: OpenGL cannot be loaded");
     ui_set_scale(v->window.scale);
     view_presenter_create(&v->presenter);
     v->scale_log2 = o->render_scale ? o->render_scale / 2 : fg_gl_software(v->h->device) ? 1 : 0;
     if (v->start->count)
         v->layer = v->start->settings[0].layer;
-    status = open_renderer(v);
-    if (status == FG_OK && v->start->params)
-        status = view_take_set(v, v->start->params);
-    return cli_status(c, status);
+    return cli_status(v->h->c, open_renderer(v));
+}
+
+static int open_all(view *v)
+{
+    cli *c = v->h->c;
+    const char *path = v->start->params;
+    view_set set = { 0 };
+    if (!view_gi_create(v) || !create_cameras(v))
+        return cli_status(c, FG_ERR_MEMORY);
+    fg_status status = path ? view_set_load(&c->log, path, &set) : FG_OK;
+    if (status == FG_OK)
+        status = open_window(v);
+    int code = status == FG_OK ? open_screen(v) : cli_status(c, status);
+    if (code == EXIT_DONE && path)
+        code = cli_status(c, view_take_set(v, path, &set));
+    view_set_finish(&set);
+    return code;
 }
 
 static void close_all(view *v)
@@ -340,8 +350,10 @@ int view_run(host *h, const view_start *start)
     };
     const fg_log before = h->c->log;
     snprintf(v.shot_dir, sizeof v.shot_dir, "%s", h->o->output ? h->o->output : ".");
-    snprintf(v.params_path, sizeof v.params_path, "%s",
-             start->params ? start->params : "view.json");
+    if (start->params)
+        snprintf(v.params_path, sizeof v.params_path, "%s", start->params);
+    else
+        snprintf(v.params_path, sizeof v.params_path, "%s/view.json", v.shot_dir);
     v.log = before; // up to the first frame a failure is one
     int code = open_all(&v);
     if (code == EXIT_DONE) {

@@ -47,8 +47,12 @@ static void next_layer(view *v, int step)
 static void restart(view *v)
 {
     view_clock_reset(&v->clock);
-    if (renderer_set_plugin(v->r, NULL, NULL) == FG_OK)
-        view_gi_touch(v);
+    fg_status status = renderer_set_plugin(v->r, NULL, NULL);
+    if (status == FG_OK)
+        status = renderer_set_split(v->r, NULL);
+    v->gi.shows_split = false;
+    if (status == FG_OK)
+        view_gi_touch(v, 3);
 }
 
 static void close_all(view *v)

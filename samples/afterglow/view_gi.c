@@ -6,43 +6,27 @@
 
 // ---- the list --------------------------------------------------------------------------------
 
-static bool add_slots(view *v, int count)
+static bool take_given(view *v, const setting *s, int place)
 {
-    view_gi *gi = &v->gi;
-    gi->slots = calloc((size_t) count, sizeof *gi->slots);
-    gi->names = calloc((size_t) count, sizeof *gi->names);
-    if (!gi->slots || !gi->names)
-        return false;
-    gi->count = count;
-    for (int i = 0; i < count; ++i) {
-        snprintf(gi->slots[i].name, VIEW_NAME, "%s", i ? gi_name(v->h->registry, i - 1) : "none");
-        gi->names[i] = gi->slots[i].name;
-    }
-    gi->slots[0].loaded = true;
-    return true;
+    const int slot = view_gi_find(v, setting_name(s));
+    view_slot *to = &v->gi.slots[slot > 0 ? slot : 0];
+    to->given = true;
+    if (place < 2)
+        v->gi.side[place] = slot > 0 ? slot : 0;
+    if (!s->plugin || to->loaded)
+        return true;
+    to->loaded = true;
+    return setting_copy(s, &to->sides[0]) && setting_copy(s, &to->sides[1]);
 }
 
 bool view_gi_create(view *v)
 {
     view_gi *gi = &v->gi;
-    int count = 1;
-    while (gi_name(v->h->registry, count - 1))
-        ++count;
-    if (!add_slots(v, count))
+    if (!view_gi_scan(v))
         return false;
-    for (int i = 0; i < v->start->count; ++i) {
-        const setting *s = &v->start->settings[i];
-        const int slot = view_gi_find(v, setting_name(s));
-        if (slot < 0)
-            continue;
-        if (s->plugin && !gi->slots[slot].loaded && !setting_copy(s, &gi->slots[slot].s))
+    for (int i = 0; i < v->start->count; ++i)
+        if (!take_given(v, &v->start->settings[i], i))
             return false;
-        gi->slots[slot].loaded = true;
-        if (i < 2)
-            gi->side[i] = slot;
-        if (slot < FG_COUNT(gi->given))
-            gi->given[slot] = true;
-    }
     gi->any_given = v->start->count > 1;
     gi->divider = 0.5;
     gi->wanted = gi->side[0] != 0;
@@ -52,22 +36,29 @@ bool view_gi_create(view *v)
 
 void view_gi_finish(view *v)
 {
-    for (int i = 0; i < v->gi.count; ++i)
-        setting_finish(&v->gi.slots[i].s);
+    for (int i = 0; i < v->gi.count; ++i) {
+        setting_finish(&v->gi.slots[i].sides[0]);
+        setting_finish(&v->gi.slots[i].sides[1]);
+    }
     free(v->gi.slots);
     free(v->gi.names);
     v->gi = (view_gi){ 0 };
 }
 
-const view_slot *view_gi_slot(const view *v, int side)
+const char *view_gi_name(const view *v, int side)
 {
-    return &v->gi.slots[v->gi.side[side]];
+    return v->gi.names[v->gi.side[side]];
+}
+
+setting *view_gi_setting(view *v, int side)
+{
+    return &v->gi.slots[v->gi.side[side]].sides[side];
 }
 
 int view_gi_find(const view *v, const char *name)
 {
     for (int i = 0; i < v->gi.count; ++i)
-        if (!strcmp(v->gi.slots[i].name, name))
+        if (!strcmp(v->gi.names[i], name))
             return i;
     return -1;
 }
@@ -75,17 +66,18 @@ int view_gi_find(const view *v, const char *name)
 bool view_gi_load(view *v, int slot)
 {
     view_slot *s = &v->gi.slots[slot];
-    if (!s->loaded && host_setting(v->h, s->name, &s->s) != EXIT_DONE)
+    if (!s->loaded && (host_setting(v->h, s->name, &s->sides[0]) != EXIT_DONE ||
+                       !setting_copy(&s->sides[0], &s->sides[1])))
         view_say(v, FG_LOG_ERROR, "%s: cannot be had", s->name);
     s->loaded = true;
-    return slot == 0 || s->s.plugin;
+    return slot == 0 || s->sides[0].plugin;
 }
 
 // ---- what is wanted --------------------------------------------------------------------------
 
-void view_gi_touch(view *v)
+void view_gi_touch(view *v, unsigned sides)
 {
-    v->gi.wanted = true;
+    v->gi.wanted |= sides;
     v->gi.said = false;
 }
 
@@ -96,7 +88,7 @@ void view_gi_want(view *v, int side, int slot)
     if (side == 0 && v->layer >= LAYER_PLUGIN) // it was the old one's
         view_layer_set(v, LAYER_FINAL);
     v->gi.side[side] = slot;
-    view_gi_touch(v);
+    view_gi_touch(v, 1u << side);
 }
 
 void view_gi_next(view *v, int side, int step)
@@ -105,7 +97,7 @@ void view_gi_next(view *v, int side, int step)
     int slot = gi->side[side];
     for (int i = 0; i < gi->count; ++i) {
         slot = (slot + step + gi->count) % gi->count;
-        if (!gi->any_given || (slot < FG_COUNT(gi->given) && gi->given[slot]))
+        if (!gi->any_given || gi->slots[slot].given)
             break;
     }
     view_gi_want(v, side, slot);
@@ -114,20 +106,20 @@ void view_gi_next(view *v, int side, int step)
 void view_gi_split(view *v, bool split)
 {
     v->gi.split = split;
-    view_gi_touch(v);
+    view_gi_touch(v, 2);
 }
 
 // ---- layers ----------------------------------------------------------------------------------
 
-int view_layer_count(const view *v)
+int view_layer_count(view *v)
 {
-    const gi_plugin *p = view_gi_slot(v, 0)->s.plugin;
+    const gi_plugin *p = view_gi_setting(v, 0)->plugin;
     return LAYER_COUNT + (p ? gi_layers_count(p) : 0);
 }
 
-const char *view_layer_name(const view *v, int layer, char *text, size_t size)
+const char *view_layer_name(view *v, int layer, char *text, size_t size)
 {
-    const gi_plugin *p = view_gi_slot(v, 0)->s.plugin;
+    const gi_plugin *p = view_gi_setting(v, 0)->plugin;
     if (layer < LAYER_COUNT)
         return renderer_layer_names[layer];
     snprintf(text, size, "%s.%s", p ? p->name : "none",
@@ -142,20 +134,65 @@ void view_layer_set(view *v, renderer_layer layer)
     view_say(v, FG_LOG_DEBUG, "layer %s", view_layer_name(v, (int) layer, name, sizeof name));
 }
 
+// What the right side shows beside the left one's layer: the plugin's own by the same name.
+static renderer_layer second_layer(view *v)
+{
+    const gi_plugin *left = view_gi_setting(v, 0)->plugin, *right = view_gi_setting(v, 1)->plugin;
+    if (v->shown < LAYER_PLUGIN)
+        return v->shown;
+    for (int i = 0; left && right && i < gi_layers_count(right); ++i)
+        if (!strcmp(right->layers[i].name, left->layers[v->shown - LAYER_PLUGIN].name))
+            return (renderer_layer) (LAYER_PLUGIN + i);
+    return LAYER_FINAL;
+}
+
 // ---- the renderer gets it --------------------------------------------------------------------
+
+static fg_status set_second(view *v)
+{
+    const setting *s = view_gi_setting(v, 1);
+    v->gi.second = second_layer(v);
+    const renderer_side side = { s->plugin, s->values, 1u << v->gi.second };
+    return renderer_set_split(v->r, &side);
+}
+
+fg_status view_gi_layers(view *v)
+{
+    // A plugin's layer comes with the plugin.
+    v->shown = v->gi.wanted && v->layer >= LAYER_PLUGIN ? LAYER_FINAL : v->layer;
+    const fg_status status = renderer_set_layers(v->r, 1u << v->shown);
+    if (status != FG_OK || !v->gi.shows_split || second_layer(v) == v->gi.second)
+        return status;
+    return set_second(v);
+}
+
+static void apply_left(view *v)
+{
+    const setting *s = view_gi_setting(v, 0);
+    if (renderer_set_plugin(v->r, s->plugin, s->values) == FG_OK)
+        view_say(v, FG_LOG_DEBUG, "plugin %s", setting_name(s));
+}
+
+static void apply_right(view *v)
+{
+    const bool split = v->gi.split;
+    v->gi.shows_split = split;
+    const fg_status status = split ? set_second(v) : renderer_set_split(v->r, NULL);
+    if (status == FG_OK)
+        view_say(v, FG_LOG_DEBUG, "split %s", split ? setting_name(view_gi_setting(v, 1)) : "off");
+}
 
 void view_gi_apply(view *v)
 {
-    const int slot = v->gi.side[0];
-    v->gi.wanted = v->gi.said = false;
-    const bool there = view_gi_load(v, slot);
-    const setting *s = &v->gi.slots[slot].s;
-    const fg_status status = renderer_set_plugin(v->r, s->plugin, s->values);
-    if (status != FG_OK)
-        view_say(v, FG_LOG_ERROR, "%s: failed to start: %s; direct light alone",
-                 view_gi_slot(v, 0)->name, fg_status_name(status));
-    else if (there)
-        view_say(v, FG_LOG_DEBUG, "plugin %s", view_gi_slot(v, 0)->name);
+    const unsigned wanted = v->gi.wanted;
+    v->gi.wanted = 0;
+    v->gi.said = false;
+    view_gi_load(v, v->gi.side[0]);
+    if (v->gi.split)
+        view_gi_load(v, v->gi.side[1]);
+    if (wanted & 1)
+        apply_left(v);
+    if (wanted & 2)
+        apply_right(v);
     v->graph.stale = true;
-    v->stats.pass_count = 0;
 }

@@ -3,144 +3,7 @@
 
 #include "ui_bridge.h"
 
-#include <math.h>
 #include <string.h>
-
-// ---- parameters ------------------------------------------------------------------------------
-
-// "%.4g W/m^2" in `text`.
-static const char *format_of(const gi_param *row, const char *number, char *text, size_t size)
-{
-    const bool pure = !row->unit || !strcmp(row->unit, "1");
-    snprintf(text, size, "%s%s%s", number, pure ? "" : " ", pure ? "" : row->unit);
-    return strchr(text + strlen(number), '%') ? number : text; // a unit is no format
-}
-
-// What spans decades is moved along them.
-static bool spans(const gi_param *row)
-{
-    return row->max - row->min > 1000 && row->min >= 0;
-}
-
-// Steps from one power of two to the next.
-static bool power_slider(const gi_param *row, gi_value *value)
-{
-    char text[64];
-    const ui_range range = {
-        .min = ceil(log2(fmax(1, row->min))),
-        .max = floor(log2(fmax(1, row->max))),
-        .format = text,
-    };
-    int64_t exponent = (int64_t) lround(log2(fmax(1, (double) value->i)));
-    char number[24];
-    snprintf(number, sizeof number, "%lld", (long long) value->i);
-    format_of(row, number, text, sizeof text);
-    if (!ui_slider_int("##value", &exponent, &range))
-        return false;
-    value->i = (int64_t) 1 << exponent;
-    return true;
-}
-
-static bool widget(const gi_param *row, gi_value *value)
-{
-    char text[64];
-    ui_range range = { .min = row->min, .max = row->max, .logarithmic = spans(row) };
-    int index = (int) value->i, count = 0;
-    bool on = value->i != 0;
-    bool changed;
-    switch (row->type) {
-    case GI_INT:
-        if (row->power_of_two)
-            return power_slider(row, value);
-        range.format = format_of(row, "%lld", text, sizeof text);
-        return ui_slider_int("##value", &value->i, &range);
-    case GI_FLOAT:
-        range.format = format_of(row, "%.4g", text, sizeof text);
-        return ui_slider_float("##value", &value->f, &range);
-    case GI_BOOL:
-        changed = ui_checkbox("##value", &on);
-        value->i = on;
-        return changed;
-    case GI_ENUM:
-        while (row->choices[count])
-            ++count;
-        changed = ui_combo("##value", &index, row->choices, count);
-        value->i = index;
-        return changed;
-    }
-    return false;
-}
-
-static bool is_default(const gi_param *row, const gi_value *value)
-{
-    return row->type == GI_FLOAT ? value->f == row->def : value->i == (int64_t) row->def;
-}
-
-// Help, range, unit and default.
-static const char *explain(const gi_param *row, char *text, size_t size)
-{
-    const char *unit = row->unit && strcmp(row->unit, "1") != 0 ? row->unit : "";
-    const char *help = row->help ? row->help : "";
-    if (row->type == GI_ENUM)
-        snprintf(text, size, "%s\n\n%s; default %s", row->name, help, row->choices[(int) row->def]);
-    else if (row->type == GI_BOOL)
-        snprintf(text, size, "%s\n\n%s; default %s", row->name, help, row->def != 0 ? "on" : "off");
-    else
-        snprintf(text, size, "%s\n\n%s; %.6g to %.6g %s%s; default %.6g\nCtrl+click: type it",
-                 row->name, help, row->min, row->max, unit,
-                 row->power_of_two ? ", a power of two" : "", row->def);
-    return text;
-}
-
-static bool param_row(const gi_param *row, gi_value *value)
-{
-    char text[512];
-    ui_push(row->name);
-    ui_table_next();
-    ui_text(is_default(row, value) ? UI_PLAIN : UI_ACCENT, row->name);
-    ui_tooltip(explain(row, text, sizeof text));
-    ui_table_next();
-    bool changed = widget(row, value);
-    ui_tooltip(text);
-    ui_table_next();
-    if (!is_default(row, value) && ui_button("x")) {
-        if (row->type == GI_FLOAT)
-            value->f = row->def;
-        else
-            value->i = (int64_t) row->def;
-        changed = true;
-    } else if (!is_default(row, value)) {
-        ui_tooltip("back to the default");
-    }
-    ui_pop();
-    return changed;
-}
-
-static void params(view *v, int side)
-{
-    setting *s = &v->gi.slots[v->gi.side[side]].s;
-    char title[128];
-    if (!s->plugin || !gi_params_count(s->plugin))
-        return;
-    snprintf(title, sizeof title, "Parameters of %s###params%d", s->plugin->name, side);
-    if (!ui_header(title, side == 0))
-        return;
-    const float em = ui_unit(), widths[] = { 8 * em, 0, 1.5f * em };
-    bool changed = false;
-    ui_push(title + strlen(title) - 1);
-    if (ui_table_begin("params", widths, FG_COUNT(widths))) {
-        for (int i = 0; i < gi_params_count(s->plugin); ++i)
-            changed |= param_row(&s->plugin->params[i], &s->values[i]);
-        ui_table_end();
-    }
-    if (ui_button("All to defaults")) {
-        gi_params_default(s->plugin, s->values);
-        changed = true;
-    }
-    ui_pop();
-    if (changed)
-        view_gi_touch(v);
-}
 
 // ---- what is shown ---------------------------------------------------------------------------
 
@@ -156,7 +19,7 @@ static void plugin_rows(view *v)
 {
     int slot = v->gi.side[0];
     bool split = v->gi.split;
-    const gi_plugin *p = view_gi_slot(v, 0)->s.plugin;
+    const gi_plugin *p = view_gi_setting(v, 0)->plugin;
     name_cell("plugin", "N and P go through them");
     if (ui_combo("##plugin", &slot, v->gi.names, v->gi.count))
         view_gi_want(v, 0, slot);
@@ -183,9 +46,16 @@ static void layer_row(view *v)
     name_cell("layer", "L and K go through them. What is not shown costs nothing");
     if (ui_combo("##layer", &layer, items, count))
         view_layer_set(v, (renderer_layer) layer);
-    const gi_plugin *p = view_gi_slot(v, 0)->s.plugin;
+    const gi_plugin *p = view_gi_setting(v, 0)->plugin;
     if (p && layer >= LAYER_COUNT && layer < count)
         ui_tooltip(p->layers[layer - LAYER_COUNT].help);
+}
+
+static void exposure_row(view *v)
+{
+    const ui_range range = { 1e-4, 1e4, "%.4g", true };
+    name_cell("exposure", "factor before the tone curve of the final layer; = and -");
+    ui_slider_float("##exposure", &v->exposure, &range);
 }
 
 static void camera_rows(view *v)
@@ -265,49 +135,89 @@ static void files(view *v)
     ui_tooltip("F1");
 }
 
+// ---- where things stand ----------------------------------------------------------------------
+
+static float edge(void)
+{
+    return 0.6f * ui_unit();
+}
+
+static float panel_width(const view *v)
+{
+    const float wide = 30 * ui_unit(), most = 0.9f * (float) v->window.width;
+    return wide < most ? wide : most;
+}
+
+// On a wide window the figures stand on the right, else below the controls.
+static bool two_panels(const view *v)
+{
+    return (float) v->window.width > 110 * ui_unit();
+}
+
+// What the panels leave of the window, where that is enough for a line of text.
+static void free_part(const view *v, float *left, float *right)
+{
+    const float taken = panel_width(v) + edge();
+    *left = v->panel ? taken : 0;
+    *right = (float) v->window.width - (v->panel && two_panels(v) ? taken : 0);
+    if (*right - *left > 15 * ui_unit())
+        return;
+    *left = 0;
+    *right = (float) v->window.width;
+}
+
 // ---- the windows -----------------------------------------------------------------------------
 
-static void messages(const view *v)
+static void fault(const view *v)
 {
-    for (int i = 0; i < v->messages.count; ++i) {
-        const view_message *m = &v->messages.list[i];
-        const ui_color color = m->level == FG_LOG_ERROR  ? UI_BAD
-                               : m->level == FG_LOG_WARN ? UI_WARN
-                                                         : UI_ACCENT;
-        ui_text_wrapped(color, m->text);
+    const char *text = renderer_fault(v->r);
+    if (text)
+        ui_text_wrapped(UI_BAD, text, 0);
+}
+
+static void controls(view *v, bool alone)
+{
+    const float widths[] = { 8 * ui_unit(), 0 };
+    fault(v);
+    if (ui_table_begin("view", widths, FG_COUNT(widths))) {
+        plugin_rows(v);
+        layer_row(v);
+        exposure_row(v);
+        scale_row(v);
+        camera_rows(v);
+        ui_table_end();
     }
+    clock_line(v);
+    view_stats_plot(v);
+    files(v);
+    view_param_rows(v, 0);
+    if (v->gi.split)
+        view_param_rows(v, 1);
+    if (alone)
+        view_stats_panel(v);
 }
 
 static void main_panel(view *v)
 {
-    const float em = ui_unit(), edge = 0.6f * em;
-    const float wide = 30 * em, most = 0.9f * (float) v->window.width;
-    const ui_window window = {
+    const bool two = two_panels(v);
+    const ui_window left = {
         .title = "afterglow",
-        .x = edge,
-        .y = edge,
-        .width = wide < most ? wide : most,
-        .height = (float) v->window.height - 2 * edge,
+        .x = edge(),
+        .y = edge(),
+        .width = panel_width(v),
+        .height = (float) v->window.height - 2 * edge(),
         .flags = UI_FIXED,
     };
-    const float widths[] = { 8 * em, 0 };
-    if (ui_window_begin(&window, NULL)) {
-        messages(v);
-        if (ui_table_begin("view", widths, FG_COUNT(widths))) {
-            plugin_rows(v);
-            layer_row(v);
-            scale_row(v);
-            camera_rows(v);
-            ui_table_end();
-        }
-        clock_line(v);
-        params(v, 0);
-        if (v->gi.split && v->gi.side[1] != v->gi.side[0])
-            params(v, 1);
+    ui_window right = left;
+    right.title = "figures";
+    right.x = (float) v->window.width - panel_width(v) - edge();
+    if (ui_window_begin(&left, NULL))
+        controls(v, !two);
+    ui_window_end();
+    if (!two)
+        return;
+    if (ui_window_begin(&right, NULL))
         view_stats_panel(v);
-        if (ui_header("Files", true))
-            files(v);
-    }
     ui_window_end();
 }
 
@@ -335,31 +245,81 @@ static void help_window(view *v)
 }
 
 // What takes seconds is said before it is done.
-static void notice(view *v)
+static void notice(const view *v, char *text, size_t size)
 {
-    char text[256];
-    const view_slot *left = view_gi_slot(v, 0), *right = view_gi_slot(v, 1);
-    if (v->gi.split)
-        snprintf(text, sizeof text, "preparing %s and %s ...", left->name, right->name);
+    const bool both = v->gi.split && v->gi.wanted == 3;
+    const char *first = view_gi_name(v, v->gi.wanted & 1 ? 0 : 1);
+    if (v->gi.wanted == 2 && !v->gi.split)
+        snprintf(text, size, "ending the split ...");
     else
-        snprintf(text, sizeof text, "preparing %s ...", left->name);
+        snprintf(text, size, "preparing %s%s%s ...", first, both ? " and " : "",
+                 both ? view_gi_name(v, 1) : "");
+}
+
+// Whether a message is shown: news with the panel alone, a fault where the panel has not got it.
+static bool is_shown(const view *v, const view_message *m)
+{
+    const char *fault = renderer_fault(v->r);
+    if (!v->panel)
+        return m->level <= FG_LOG_WARN;
+    return !fault || !strstr(m->text, fault);
+}
+
+// Below the picture, where they push nothing aside.
+static void messages(const view *v)
+{
+    static const ui_color colors[] = { [FG_LOG_ERROR] = UI_BAD, [FG_LOG_WARN] = UI_WARN };
+    float left, right;
+    free_part(v, &left, &right);
     const ui_window window = {
-        .title = "##notice",
-        .x = 0.5f * ((float) v->window.width - ui_text_width(text)),
-        .y = (float) v->window.height - 4 * ui_unit(),
+        .title = "##messages",
+        .x = 0.5f * (left + right),
+        .y = (float) v->window.height - ui_unit(),
         .flags = UI_FITTED,
     };
-    if (ui_window_begin(&window, NULL))
+    char text[256];
+    int count = v->gi.wanted != 0;
+    for (int i = 0; i < v->messages.count; ++i)
+        count += is_shown(v, &v->messages.list[i]);
+    if (!count)
+        return;
+    const bool open = ui_window_begin(&window, NULL);
+    for (int i = v->messages.count - 1; open && i >= 0; --i) {
+        const view_message *m = &v->messages.list[i];
+        if (is_shown(v, m))
+            ui_text_wrapped(m->level <= FG_LOG_WARN ? colors[m->level] : UI_PLAIN, m->text,
+                            right - left - 2 * ui_unit());
+    }
+    if (open && v->gi.wanted) {
+        notice(v, text, sizeof text);
         ui_text(UI_ACCENT, text);
+    }
     ui_window_end();
+}
+
+// The line between two sides, with their names on it.
+static void divider(const view *v)
+{
+    const float em = ui_unit(), x = (float) (v->gi.divider * v->window.width);
+    for (int i = 0; i < 2; ++i) {
+        const char *name = view_gi_name(v, i);
+        const float width = ui_text_width(name) + em;
+        const float left = i ? x + 0.5f * em : x - 0.5f * em - width;
+        ui_draw_rect(left, em, width, 1.8f * em, 0x191817d0);
+        ui_draw_text(left + 0.5f * em, 1.4f * em, 0xf2b15cff, name);
+    }
+    ui_draw_line(x, 0, x, (float) v->window.height, 0xf2b15cff);
+    ui_draw_rect(x - 0.3f * em, 0.5f * (float) v->window.height - em, 0.6f * em, 2 * em,
+                 0xf2b15cff);
 }
 
 void view_panel(view *v)
 {
+    if (v->gi.shows_split)
+        divider(v);
     if (v->panel)
         main_panel(v);
     if (v->help)
         help_window(v);
-    if (v->gi.wanted)
-        notice(v);
+    messages(v);
 }

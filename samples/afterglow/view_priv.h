@@ -14,25 +14,29 @@
 
 // ---- plugins (view_gi.c) ---------------------------------------------------------------------
 
-// A plugin by name, with the values that it keeps while others are shown. The first is "none".
+// A plugin by name, with the values that it keeps on either side while others are shown. The first
+// is "none".
 typedef struct view_slot {
-    char name[VIEW_NAME];
-    setting s;   // plugin NULL: not loaded yet, refused, or none
-    bool loaded; // or tried to
+    const char *name; // the registry's
+    setting sides[2]; // plugin NULL: not loaded yet, refused, or none
+    bool loaded;      // or tried to
+    bool given;       // by --gi: one of those that the keys go through
 } view_slot;
 
 typedef struct view_gi {
     view_slot *slots;
     const char **names; // of the slots, for a list
     int count;
-    bool given[2 * CLI_MAX_GI]; // slots to go through by key: those of --gi; none: all
-    bool any_given;
-    int side[2]; // slots wanted: left (or alone) and right
+    bool any_given; // else the keys go through all
+    int side[2];    // slots wanted: left (or alone) and right
     bool split;
-    double divider; // of the width
-    bool wanted;    // the renderer has something else than what is wanted
-    bool said;      // the window says what it prepares
-    bool ready;     // a frame with what was asked for at first was shown
+    double divider;         // of the width
+    unsigned wanted;        // a bit for each side of which the renderer has something else
+    bool said;              // the window says what it prepares
+    bool ready;             // a frame with what was asked for at first was shown
+    bool shows_split;       // the renderer's
+    renderer_layer second;  // layer of the second side that the renderer gives
+    double looked, scanned; // seconds: when modules and folders were last looked at
 } view_gi;
 
 // ---- figures (view_stats.c) ------------------------------------------------------------------
@@ -90,6 +94,7 @@ typedef struct view {
     renderer_layer layer; // wanted
     renderer_layer shown; // of the last frame
     double exposure;
+    int size[2];    // of the last frame
     int scale_log2; // of the frame against the window: 0, 1 or 2
     view_stats stats;
     view_graph graph;
@@ -114,33 +119,43 @@ void view_own_camera(view *v);             // stops following the scene's
 void view_follow_camera(view *v, int index);
 void view_frame_size(const view *v, int size[2]);
 
-// view_gi.c. False: out of memory, noted.
-bool view_gi_create(view *v);
+// view_gi.c
+bool view_gi_create(view *v); // false: out of memory
 void view_gi_finish(view *v);
-const view_slot *view_gi_slot(const view *v, int side);
+const char *view_gi_name(const view *v, int side);
+setting *view_gi_setting(view *v, int side);
 void view_gi_want(view *v, int side, int slot); // shown when the window has said so
 void view_gi_next(view *v, int side, int step);
 void view_gi_split(view *v, bool split);
-void view_gi_touch(view *v); // values, or what else the plugin is to begin anew with, changed
+// Values, or what else a plugin is to begin anew with, changed; `sides`: a bit each.
+void view_gi_touch(view *v, unsigned sides);
 int view_gi_find(const view *v, const char *name); // -1: there is none
 bool view_gi_load(view *v, int slot);              // false: refused; the log has said why
 // Between two frames: what is wanted becomes what is shown. Failures are messages.
 void view_gi_apply(view *v);
+// Of the next frame, in each: the layers that are shown.
+FG_NODISCARD fg_status view_gi_layers(view *v);
+// view_reload.c: modules that have changed, appeared or gone, a few times a second.
+bool view_gi_scan(view *v); // slots for all names there are; false: out of memory
+void view_gi_watch(view *v);
 // Layers there are with the left plugin.
-int view_layer_count(const view *v);
-const char *view_layer_name(const view *v, int layer, char *text, size_t size);
+int view_layer_count(view *v);
+const char *view_layer_name(view *v, int layer, char *text, size_t size);
 void view_layer_set(view *v, renderer_layer layer);
 
 // view_set.c
 void view_save_set(view *v);
 void view_load_set(view *v);
-FG_NODISCARD fg_status view_take_set(view *v, const char *path);
+// All of it or, with a line that says why, nothing.
+FG_NODISCARD fg_status view_take_set(view *v, const char *path, const view_set *s);
 void view_shoot_frame(view *v);
 void view_shoot_window(view *v);
 
-// view_panel.c, view_stats.c, view_graph.c
+// view_panel.c, view_param_rows.c, view_stats.c, view_graph.c
 void view_panel(view *v);
+void view_param_rows(view *v, int side);
 void view_stats_take(view *v, double cpu_ms); // of a frame that was submitted
+void view_stats_plot(const view *v);
 void view_stats_panel(view *v);
 void view_graph_panel(view *v);
 void view_graph_finish(view_graph *g);

@@ -12,10 +12,10 @@
 
 static void take_side(view *v, int side, view_set_side *out)
 {
-    const view_slot *slot = view_gi_slot(v, side);
-    snprintf(out->plugin, sizeof out->plugin, "%s", slot->name);
-    if (slot->s.plugin)
-        out->params = view_set_params(slot->s.plugin, slot->s.values);
+    const setting *s = view_gi_setting(v, side);
+    snprintf(out->plugin, sizeof out->plugin, "%s", view_gi_name(v, side));
+    if (s->plugin)
+        out->params = view_set_params(s->plugin, s->values);
 }
 
 static view_set current_set(view *v)
@@ -77,7 +77,7 @@ static fg_status check_side(view *v, const char *path, const view_set_side *side
         return refuse(v, path, "plugin", side->plugin);
     out->slot[i] = slot;
     setting copy;
-    if (!setting_copy(&v->gi.slots[slot].s, &copy))
+    if (!setting_copy(&v->gi.slots[slot].sides[i], &copy))
         return FG_ERR_MEMORY;
     out->values[i] = copy.values;
     return copy.plugin ? view_set_values(&v->log, path, side->params, copy.plugin, out->values[i])
@@ -105,7 +105,7 @@ static fg_status check_set(view *v, const char *path, const view_set *s, checked
     if (status)
         return status;
     const int shown = out->slot[0] >= 0 ? out->slot[0] : v->gi.side[0];
-    out->layer = s->layer[0] ? find_layer(v->gi.slots[shown].s.plugin, s->layer) : -1;
+    out->layer = s->layer[0] ? find_layer(v->gi.slots[shown].sides[0].plugin, s->layer) : -1;
     out->camera = s->camera[0] ? ag_scene_find_camera(v->h->scene, s->camera) : -1;
     if (s->layer[0] && out->layer < 0)
         return refuse(v, path, "layer", s->layer);
@@ -134,7 +134,7 @@ static void take_checked(view *v, const view_set *s, checked *c)
     for (int i = 0; i < 2; ++i) {
         if (c->slot[i] < 0)
             continue;
-        setting *kept = &v->gi.slots[c->slot[i]].s;
+        setting *kept = &v->gi.slots[c->slot[i]].sides[i];
         gi_value *old = kept->values;
         kept->values = c->values[i];
         c->values[i] = old;
@@ -149,29 +149,27 @@ static void take_checked(view *v, const view_set *s, checked *c)
     if (c->layer >= 0)
         view_layer_set(v, (renderer_layer) c->layer);
     take_camera(v, s, c->camera);
-    view_gi_touch(v);
+    view_gi_touch(v, 3);
 }
 
-fg_status view_take_set(view *v, const char *path)
+fg_status view_take_set(view *v, const char *path, const view_set *s)
 {
-    view_set s;
     checked c = { .slot = { -1, -1 } };
-    fg_status status = view_set_load(&v->log, path, &s);
-    if (status)
-        return status;
-    status = check_set(v, path, &s, &c);
+    const fg_status status = check_set(v, path, s, &c);
     if (!status)
-        take_checked(v, &s, &c);
+        take_checked(v, s, &c);
     free(c.values[0]);
     free(c.values[1]);
-    view_set_finish(&s);
     return status;
 }
 
 void view_load_set(view *v)
 {
-    if (view_take_set(v, v->params_path) == FG_OK)
+    view_set s;
+    if (view_set_load(&v->log, v->params_path, &s) == FG_OK &&
+        view_take_set(v, v->params_path, &s) == FG_OK)
         view_say(v, FG_LOG_INFO, "loaded %s", v->params_path);
+    view_set_finish(&s);
 }
 
 // ---- pictures --------------------------------------------------------------------------------
@@ -182,7 +180,7 @@ static void shot_path(view *v, const char *kind, char *path, size_t size)
     const char *scene = strrchr(v->h->scene_name, '/');
     scene = scene ? scene + 1 : v->h->scene_name;
     do {
-        snprintf(path, size, "%s/%.60s-%s-%04d%s.png", v->shot_dir, scene, view_gi_slot(v, 0)->name,
+        snprintf(path, size, "%s/%.60s-%s-%04d%s.png", v->shot_dir, scene, view_gi_name(v, 0),
                  ++v->shots, kind);
     } while (access(path, F_OK) == 0 && v->shots < 9999);
 }

@@ -3,25 +3,26 @@
 
 #include "ui_bridge.h"
 
+#include <math.h>
 #include <string.h>
 
 // ---- taking ----------------------------------------------------------------------------------
 
-static double blend(double old, double now)
+static double blend(double old, double now, double weight)
 {
-    return old + 0.1 * (now - old);
+    return old + weight * (now - old);
 }
 
-static void take_pass(view_pass *p, const fg_timing *t, bool known)
+static void take_pass(view_pass *p, const fg_timing *t, bool known, double weight)
 {
     if (!known) {
         snprintf(p->name, sizeof p->name, "%s", t->pass);
         p->gpu_ms = -1;
         p->cpu_ms = t->cpu_ms;
     }
-    p->cpu_ms = blend(p->cpu_ms, t->cpu_ms);
+    p->cpu_ms = blend(p->cpu_ms, t->cpu_ms, weight);
     if (t->gpu_ms >= 0)
-        p->gpu_ms = p->gpu_ms < 0 ? t->gpu_ms : blend(p->gpu_ms, t->gpu_ms);
+        p->gpu_ms = p->gpu_ms < 0 ? t->gpu_ms : blend(p->gpu_ms, t->gpu_ms, weight);
 }
 
 void view_stats_take(view *v, double cpu_ms)
@@ -30,13 +31,15 @@ void view_stats_take(view *v, double cpu_ms)
     fg_graph *g = renderer_graph(v->r);
     fg_timing t;
     int i = 0;
+    // Over half a second, however many frames that are.
+    const double weight = fmin(1, fmax(0.02, view_history_mean(&s->frames, 1) / 500));
     for (; i < VIEW_MAX_PASSES && fg_graph_timing(g, i, &t); ++i) {
         const bool known =
             i < s->pass_count && !strncmp(s->passes[i].name, t.pass, sizeof s->passes[i].name - 1);
-        take_pass(&s->passes[i], &t, known);
+        take_pass(&s->passes[i], &t, known, weight);
     }
     s->pass_count = i;
-    s->cpu_ms = s->cpu_ms > 0 ? blend(s->cpu_ms, cpu_ms) : cpu_ms;
+    s->cpu_ms = s->cpu_ms > 0 ? blend(s->cpu_ms, cpu_ms, weight) : cpu_ms;
     s->graph = fg_graph_get_stats(g);
     s->counter_count = renderer_counters(v->r, s->counters, VIEW_MAX_COUNTERS);
     if (s->counter_count > VIEW_MAX_COUNTERS)
@@ -45,15 +48,14 @@ void view_stats_take(view *v, double cpu_ms)
 
 // ---- showing ---------------------------------------------------------------------------------
 
-static double longest(const view_stats *s, double *gpu, double *cpu)
+static double longest(const view_stats *s, double *gpu)
 {
     double max = 1e-6;
-    *gpu = *cpu = 0;
+    *gpu = 0;
     for (int i = 0; i < s->pass_count; ++i) {
         const double ms = s->passes[i].gpu_ms;
         max = ms > max ? ms : max;
         *gpu += ms > 0 ? ms : 0;
-        *cpu += s->passes[i].cpu_ms;
     }
     return max;
 }
@@ -73,12 +75,10 @@ static void pass_row(const view_pass *p, double max)
     ui_tooltip("ms of the CPU: the pass's callback and what the device does around it");
 }
 
-static void times(view *v)
+void view_stats_plot(const view *v)
 {
     const view_stats *s = &v->stats;
-    const float em = ui_unit();
-    char text[160];
-    double gpu, cpu;
+    char text[96];
     const double mean = view_history_mean(&s->frames, 30);
     snprintf(text, sizeof text, "%.1f ms a frame, %.1f a second", mean, mean > 0 ? 1e3 / mean : 0);
     const ui_curve curve = {
@@ -86,15 +86,23 @@ static void times(view *v)
         .count = s->frames.count,
         .first = s->frames.count == VIEW_HISTORY ? s->frames.next : 0,
         .max = (float) (1.1 * view_history_max(&s->frames)),
-        .height = 4 * em,
+        .height = 3.5f * ui_unit(),
         .text = text,
     };
     ui_plot(&curve);
-    const double max = longest(s, &gpu, &cpu);
-    snprintf(text, sizeof text, "passes %.2f ms of the GPU%s, submitted in %.2f ms", gpu,
-             fg_gl_software(v->h->device) ? " (here the CPU)" : "", s->cpu_ms);
+}
+
+static void times(const view *v)
+{
+    const view_stats *s = &v->stats;
+    const float em = ui_unit();
+    char text[160];
+    double gpu;
+    const double max = longest(s, &gpu);
+    snprintf(text, sizeof text, "GPU%s %.2f ms; submitted in %.2f ms",
+             fg_gl_software(v->h->device) ? " (here the CPU)" : "", gpu, s->cpu_ms);
     ui_text(UI_DIM, text);
-    const float widths[] = { 13 * em, 0, 4 * em };
+    const float widths[] = { 14 * em, 0, 4 * em };
     if (!ui_table_begin("passes", widths, FG_COUNT(widths)))
         return;
     for (int i = 0; i < s->pass_count; ++i)
@@ -150,14 +158,14 @@ static void left_out(view *v)
     const char *pass, *why;
     for (int i = 0; (pass = fg_graph_left_out(renderer_graph(v->r), i, &why)); ++i) {
         ui_text(UI_ACCENT, pass);
-        ui_text_wrapped(UI_DIM, why);
+        ui_text_wrapped(UI_DIM, why, 0);
     }
 }
 
 void view_stats_panel(view *v)
 {
     char title[64];
-    if (ui_header("Times", true))
+    if (ui_header("Passes: time on the GPU, ms on the CPU", true))
         times(v);
     if (ui_header("Memory", true))
         memory(&v->stats);

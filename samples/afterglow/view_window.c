@@ -46,6 +46,7 @@ static void on_button(GLFWwindow *handle, int button, int action, int mods)
     if (button == GLFW_MOUSE_BUTTON_LEFT) {
         w->in.left = pressed;
         w->in.left_pressed = w->in.left_pressed || pressed;
+        w->in.press_x = pressed ? w->in.x : w->in.press_x;
     } else if (button == GLFW_MOUSE_BUTTON_RIGHT) {
         w->in.right = pressed;
     }
@@ -56,8 +57,10 @@ static void on_cursor(GLFWwindow *handle, double x, double y)
     view_window *w = glfwGetWindowUserPointer(handle);
     x *= w->pixels_x;
     y *= w->pixels_y;
-    w->in.dx += x - w->in.x;
-    w->in.dy += y - w->in.y;
+    if (w->in.right || w->captured) {
+        w->in.dx += x - w->in.x;
+        w->in.dy += y - w->in.y;
+    }
     w->in.x = x;
     w->in.y = y;
 }

@@ -21,10 +21,11 @@ typedef struct view_input {
     int action_count;
     unsigned moves; // VIEW_MOVE_ bits of the keys that are held
     double x, y;    // the pointer
-    double dx, dy;  // its way, from top left to bottom right; while it is captured too
+    double dx, dy;  // its way while the right button was held or it was captured, however short
     double wheel;
     bool left, right;  // buttons held that were pressed outside of the panel
-    bool left_pressed; // now
+    bool left_pressed; // since the last poll
+    double press_x;    // where
 } view_input;
 
 typedef struct view_window {
