@@ -33,6 +33,19 @@ int kit_part(kit *k, const char *name, shape *s, int material);
 // A node that shows `part`. Returns the node.
 int kit_show(kit *k, const char *name, int part, int parent, place at);
 int kit_texture(kit *k, const char *name, pattern what, int size);
+// What a thing is made of.
+typedef struct kit_look {
+    const char *name;
+    int texture;     // a pattern, -1: none; of the emission where there is some, else the colour
+    float color[3];  // linear, times the texture
+    float roughness; // 0: 1
+    float metallic;
+    float emissive[3]; // W/(m^2 sr)
+    int size;          // of the texture, texels along an edge; 0: 256
+} kit_look;
+// One material a look; those of one pattern share the texture that the first of them paints.
+void kit_materials(kit *k, const kit_look *looks, int count, int *material);
+
 // A camera at `eye` that looks at `target`, `yfov` in radians.
 void kit_camera(kit *k, const char *name, const double eye[3], const double target[3], float yfov);
 

@@ -19,6 +19,16 @@ typedef enum pattern {
     PATTERN_WOOD,       // planks along v, 1 m
     PATTERN_FABRIC,     // woven, near white: takes its colour from the material, 0.6 m
     PATTERN_LEAVES,     // a spray of leaves, alpha 0 or 1 between them, one card
+    PATTERN_PARQUET,    // oak strips along v, 1.2 m
+    PATTERN_RUG,        // one whole rug
+    PATTERN_PICTURES,   // four paintings, a quarter each
+    PATTERN_TELEVISION, // 4 x 4 pictures of a film, in rows; four of each programme
+    PATTERN_EVENING,    // what is seen through a window, once
+    PATTERN_CARTON,     // one side of a box with its tape
+    PATTERN_CONCRETE,   // a slab with its joints, 4 m
+    PATTERN_BELT,       // rubber with a chevron that points to +v, 1 m
+    PATTERN_SHEET,      // corrugated steel, ribs along v, 1 m
+    PATTERN_HAZARD,     // yellow and black, 0.5 m
     PATTERN_COUNT,
 } pattern;
 

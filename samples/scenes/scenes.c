@@ -15,11 +15,21 @@ enum {
            AG_FEATURE_MOVING_GEOMETRY,
 };
 
+enum {
+    ROOM_FEATURES = AG_FEATURE_SPOT_LIGHT | AG_FEATURE_SEVERAL_LIGHTS | AG_FEATURE_TEXTURES |
+                    AG_FEATURE_TEXTURE_TRANSFORM | AG_FEATURE_MOVING_MATERIAL |
+                    AG_FEATURE_EMISSIVE | AG_FEATURE_AREA_LIGHT | AG_FEATURE_GLOSSY |
+                    AG_FEATURE_VERTEX_COLOR,
+};
+
 static const builtin_scene table[] = {
     { "cornell", "the Cornell box as measured, with a spot under its ceiling",
       LIVE | AG_FEATURE_SPOT_LIGHT, cornell_build },
     { "atrium", "a two-storey court in bays with cloths, jars and plants, under a moving light",
       LIVE | AG_FEATURE_SPOT_LIGHT | AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK, atrium_build },
+    { "living-room",
+      "an evening room: sun through a window, lamps, a television whose picture changes",
+      LIVE | ROOM_FEATURES, living_room_build },
 };
 
 const builtin_scene *scenes_builtin(int i)

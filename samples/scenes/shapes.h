@@ -38,6 +38,12 @@ void shape_lattice(shape *s, uint32_t first, int nu, int nv);
 void shape_quad(shape *s, const float corners[4][3]);
 void shape_box(shape *s, const float lo[3], const float hi[3]);
 
+// A box with edges and corners rounded by `radius`, at most half the least side; each quarter turn
+// of an edge has `segments` flats. Closed.
+void shape_round_box(shape *s, const float lo[3], const float hi[3], float radius, int segments);
+// Gives what was appended since `first_vertex` a colour, linear, times the material's.
+void shape_paint(shape *s, size_t first_vertex, const float rgb[3]);
+
 // A solid of revolution around +Y. The profile runs from the bottom upwards with the solid on
 // its left; from axis to axis it makes a closed surface.
 typedef struct shape_lathe_desc {

@@ -199,15 +199,29 @@ static void every_camera_looks_at_the_scene(void **state)
     for_all(check_cameras);
 }
 
-// Of 12 x 12 rays of the first camera: how many meet something, and how many of those points the
+// Whether some light reaches the point.
+static bool is_lit(const ag_scene *s, const soup *w, const double at[3])
+{
+    for (int i = 0; i < s->light_count; ++i) {
+        double distance;
+        float e[3], to_light[3];
+        ag_light_eval(&s->lights[i], at, e, to_light, &distance);
+        const double towards[3] = { (double) to_light[0], (double) to_light[1],
+                                    (double) to_light[2] };
+        if (e[0] > 0.0f && soup_nearest(w, at, towards, distance) >= distance)
+            return true;
+    }
+    return false;
+}
+
+// Of 12 x 12 rays of the first camera: how many meet something, and how many of those points some
 // light reaches.
 static void lit_share(const ag_scene *s, int *seen, int *lit)
 {
     const soup w = soup_of(s);
     *seen = *lit = 0;
     for (int k = 0; k < 144; ++k) {
-        double from[3], direction[3], at[3], distance;
-        float e[3], to_light[3];
+        double from[3], direction[3], at[3];
         const int row = k / 12;
         camera_ray(&s->cameras[0], (k % 12 - 5.5) / 6.0, (row - 5.5) / 6.0, from, direction);
         const double t = soup_nearest(&w, from, direction, 1e6);
@@ -216,10 +230,7 @@ static void lit_share(const ag_scene *s, int *seen, int *lit)
         ++*seen;
         for (int i = 0; i < 3; ++i)
             at[i] = from[i] + (t - 1e-4) * direction[i];
-        ag_light_eval(&s->lights[0], at, e, to_light, &distance);
-        const double towards[3] = { (double) to_light[0], (double) to_light[1],
-                                    (double) to_light[2] };
-        *lit += e[0] > 0.0f && soup_nearest(&w, at, towards, distance) >= distance;
+        *lit += is_lit(s, &w, at);
     }
     free(w.corners);
 }
@@ -230,7 +241,7 @@ static void check_lit(const char *name, ag_scene *s)
     lit_share(s, &seen, &lit);
     // Enough direct light for a picture, enough shadow for indirect light to show.
     if (lit < seen / 5 || lit > seen * 4 / 5)
-        fail_msg("%s: the light reaches %d of %d points", name, lit, seen);
+        fail_msg("%s: light reaches %d of %d points", name, lit, seen);
 }
 
 static void light_reaches_a_good_part_of_the_first_view(void **state)
