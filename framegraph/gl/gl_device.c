@@ -145,6 +145,8 @@ static fg_status frame_end(fg_device *dev)
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glBindVertexArray(0);
     glUseProgram(0);
+    if (d->terminates)
+        glFrameTerminatorGREMEDY();
     if (d->debug)
         gl_drain_errors(d);
     glFlush(); // without a swap nothing else starts the GPU, and no timing would come back
@@ -335,6 +337,10 @@ static void begin_device(gl_device *d)
     glGetIntegerv(GL_MAX_LABEL_LENGTH, &d->max_label);
     glGetIntegerv(GL_MAX_DEBUG_MESSAGE_LENGTH, &d->max_message);
     listen(d);
+    // A tool that records (apitrace) knows frames by their swaps. Without a surface there are none.
+    d->terminates =
+        epoxy_has_gl_extension("GL_GREMEDY_frame_terminator") &&
+        glCheckNamedFramebufferStatus(0, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_UNDEFINED;
     gl_read_limits(d);
     glCreateVertexArrays(1, &d->vao);
     create_samplers(d);

@@ -91,7 +91,8 @@ typedef struct gl_device {
     bool host_synchronous;
 
     bool software;
-    bool in_pass; // a debug group is open
+    bool in_pass;    // a debug group is open
+    bool terminates; // says where frames end, see begin_device()
     GLuint vao;
     GLuint samplers[GL_FILTER_COUNT];
     gl_framebuffers framebuffers;
