@@ -16,7 +16,13 @@ static void print(void *user, fg_log_level level, const char *msg)
 
 // ---- scenes ----------------------------------------------------------------------------------
 
-static const char *const scene_names[] = { "cornell", "atrium", "sponza", NULL };
+// The i-th scene of the program's list; NULL past its end.
+static const char *scene_name(const bench_program *program, int i)
+{
+    static const char *const names[] = { "cornell", "atrium", "sponza", NULL };
+    const builtin_scene *const scene = program->builtin ? scenes_builtin(i) : NULL;
+    return program->builtin ? scene ? scene->name : NULL : names[i];
+}
 
 // Along the court at the height of a tall man's eyes; and the light.
 static fg_status furnish_sponza(bench *b)
@@ -80,8 +86,8 @@ static fg_status run_scene(const bench *b)
 static fg_status run_scenes(bench *b)
 {
     fg_status status = FG_OK;
-    for (int i = 0; scene_names[i] && status == FG_OK; i++) {
-        const char *name = scene_names[i];
+    const char *name;
+    for (int i = 0; (name = scene_name(b->program, i)) && status == FG_OK; i++) {
         if (b->wanted_scene && strcmp(b->wanted_scene, name) != 0)
             continue;
         if (!b->wanted_scene && !strcmp(name, "sponza") && !getenv("AFTERGLOW_SCENES"))
@@ -139,8 +145,9 @@ void bench_fit(const bench *b, int edge, int size[2])
 
 static int usage(const bench *b)
 {
-    fprintf(stderr, "usage: %s [--size N|WxH] [--scene NAME] [--least] [--verbose]%s [FIGURE]...\n",
-            b->program->name,
+    fprintf(stderr,
+            "usage: %s [--size N|WxH] [--scene NAME] [--least] [--verbose]%s%s [FIGURE]...\n",
+            b->program->name, b->program->builtin ? " [--gi NAME]..." : "",
             b->program->subject ? " [--camera NAME] [--set KEY=VALUE]... [--pictures FOLDER]" : "");
     return 2;
 }
@@ -164,6 +171,8 @@ static bool parse_value(bench *b, const char *option, const char *value)
         return parse_size(value, b->size);
     if (!strcmp(option, "--scene"))
         b->wanted_scene = value;
+    else if (!strcmp(option, "--gi") && b->program->builtin && b->technique_count < MAX_NAMES)
+        b->techniques[b->technique_count++] = value;
     else if (!strcmp(option, "--camera") && subject)
         b->wanted_camera = value;
     else if (!strcmp(option, "--pictures") && subject)
@@ -190,8 +199,9 @@ static bool parse(bench *b, int argc, char **argv)
         else
             return false;
     }
-    for (int i = 0; b->wanted_scene && scene_names[i]; i++)
-        if (!strcmp(b->wanted_scene, scene_names[i]))
+    const char *name;
+    for (int i = 0; b->wanted_scene && (name = scene_name(b->program, i)); i++)
+        if (!strcmp(b->wanted_scene, name))
             return true;
     return !b->wanted_scene;
 }

@@ -36,6 +36,7 @@ typedef fg_status (*bench_part)(const bench *b);
 typedef struct bench_program {
     const char *name;        // before its lines on stderr
     int size[2];             // of frames where --size is not given
+    bool builtin;            // all built-in scenes instead; takes --gi NAME
     const char *subject;     // the plugin that it is about, without which it does nothing; or NULL
     const bench_part *parts; // run in order in each scene; ends at NULL
 } bench_program;
@@ -56,6 +57,8 @@ struct bench {
     const char *pictures;                     // NULL: none
     const char *set[MAX_SET];
     int set_count;
+    const char *techniques[MAX_NAMES]; // by --gi
+    int technique_count;
     const char *names[MAX_NAMES]; // figures asked for, or how they begin; none: all
     int name_count;
 };
@@ -95,6 +98,7 @@ typedef struct side {
     const char *plugin; // NULL: direct light alone
     const char *values; // "vpls=256 share=0": what departs from the defaults
     bool picture;       // its indirect layer is to be read
+    bool needs_all;     // nothing that the scene does not need is left out
     const gi_plugin *table;
     gi_value *set;
     renderer *r;

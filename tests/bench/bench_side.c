@@ -104,6 +104,7 @@ fg_status side_open(const bench *b, side *s, const int size[2])
                                              .plugin = s->table,
                                              .values = s->set,
                                              .strict = true,
+                                             .needs_all = s->needs_all,
                                              .layers = s->picture ? 1u << LAYER_INDIRECT : 0 },
                            &s->r);
 }

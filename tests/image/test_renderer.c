@@ -237,6 +237,32 @@ static void what_a_dark_scene_does_not_need_is_left_out_and_said(void **state)
     ag_scene_destroy(dark);
 }
 
+static bool draws(ag_scene *scene, bool needs_all, const char *texture)
+{
+    renderer_desc desc = desc_for(scene, NULL);
+    desc.needs_all = needs_all;
+    renderer *r = make(&desc);
+    assert_int_equal(renderer_frame(r, 0), FG_OK);
+    char *text = fg_graph_dump(renderer_graph(r), FG_DUMP_TEXT);
+    assert_non_null(text);
+    const bool there = strstr(text, texture) != NULL;
+    fg_dump_free(renderer_graph(r), text);
+    renderer_destroy(r);
+    return there;
+}
+
+static void what_no_surface_has_is_not_drawn(void **state)
+{
+    (void) state;
+    ag_scene *plain = lit_room(); // rough, dark surfaces
+    assert_true(draws(plain, false, "gbuffer.albedo"));
+    assert_false(draws(plain, false, "gbuffer.material"));
+    assert_false(draws(plain, false, "gbuffer.emissive"));
+    assert_true(draws(plain, true, "gbuffer.material"));
+    assert_true(draws(plain, true, "gbuffer.emissive"));
+    ag_scene_destroy(plain);
+}
+
 static void empty_scene_is_black(void **state)
 {
     (void) state;
@@ -362,6 +388,7 @@ int main(void)
         cmocka_unit_test(new_size_and_back_gives_the_same_picture),
         cmocka_unit_test(switches_of_the_graph_change_no_picture),
         cmocka_unit_test(what_a_dark_scene_does_not_need_is_left_out_and_said),
+        cmocka_unit_test(what_no_surface_has_is_not_drawn),
         cmocka_unit_test(empty_scene_is_black),
         cmocka_unit_test(layer_not_asked_for_is_refused),
         cmocka_unit_test(bad_descriptions_are_refused),

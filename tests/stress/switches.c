@@ -339,7 +339,7 @@ static bool one_switch(stress *s, int i, int which)
         if (!status)
             memcpy(s->first[which], rgb, sizeof rgb);
     }
-    if (!status && memcmp(rgb, s->first[which], sizeof rgb) != 0) {
+    if (!status && memcmp((const char *) rgb, (const char *) s->first[which], sizeof rgb) != 0) {
         report_difference(i, which, rgb, s->first[which]);
         return false;
     }
