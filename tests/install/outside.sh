@@ -72,6 +72,18 @@ echo "== installed beside the others"
 meson install -C plugin/build >/dev/null
 "$afterglow" plugins | grep -q '^screen$'
 
+echo "== the document"
+python3 "$source/tests/install/document.py" "$source/docs/writing-a-plugin.md" document.sh
+mkdir document
+(cd document && prefix=$prefix bash ../document.sh)
+for file in mean.png radiance.png stats.json trace.json stability/stability.json; do
+    test -s "document/mean/$file"
+done
+"$afterglow" compare document/mean/mine.exr document/mean/truth.exr --json | python3 -c '
+import json, sys
+ratio = json.load(sys.stdin)["energy_ratio"]
+assert 0.2 < ratio < 5, ratio'
+
 echo "== the plugin with Afterglow as a subproject"
 mkdir -p whole/subprojects
 cp "$source"/samples/out_of_tree/* whole
