@@ -428,11 +428,10 @@ fg_status host_switch(host *h, renderer *r, const setting *s)
 {
     const fg_status status = renderer_set_plugin(r, s->plugin, s->values);
     h->fell_back = status != FG_OK;
-    if (status == FG_OK || !s->plugin)
+    if (status == FG_OK || !renderer_fault(r))
         return status;
-    cli_forgive(h->c);
-    cli_warn("%s: failed to start: %s; direct light alone", s->plugin->name,
-             fg_status_name(status));
+    h->c->error[0] = 0; // the fault tells it
+    cli_warn("%s; direct light alone", renderer_fault(r));
     return FG_OK;
 }
 

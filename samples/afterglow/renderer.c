@@ -335,46 +335,57 @@ static fg_status attempt(renderer *r, unsigned without)
     return status ? status : fg_graph_run(r->graph);
 }
 
+// What came of the frame without some sides, which index it: a bit each.
+typedef struct trial {
+    fg_status status;
+    char why[512];
+} trial;
+
+// Drops what the frame had to succeed without. What the plugin did wrong was heard in the first
+// trial; of two that are at fault, in the trial where each was without the other.
+static void settle(renderer *r, unsigned without, const trial *of)
+{
+    const char *const why[SIDES] = { of[without == 3 ? 2 : 0].why, of[without == 3 ? 1 : 0].why };
+    if (!without)
+        return;
+    drop_sides(r, without, "in its frame", why);
+    r->declared = true; // as it ran, and trimmed
+    r->trim_due = false;
+}
+
 // A frame that fails is tried without one plugin, the other, both: what makes it succeed was at
 // fault.
 static fg_status run_frame(renderer *r)
 {
-    static const unsigned trials[] = { 0, 2, 1, 3 };
-    char heard[4][sizeof r->heard] = { "" };
+    static const unsigned order[] = { 0, 2, 1, 3 };
+    trial of[4] = { { 0 } };
     unsigned live = 0, without = 0;
-    fg_status status = FG_OK, first = FG_OK;
     r->layer_failed = false;
     for (int i = 0; i < r->sides; i++)
         live |= r->side[i].plugin ? 1u << i : 0;
     r->trying = live && !r->desc.strict;
-    for (int i = 0; i < FG_COUNT(trials); i++) {
-        if (trials[i] & ~(r->trying ? live : 0))
+    for (int i = 0; i < FG_COUNT(order); i++) {
+        if (order[i] & ~(r->trying ? live : 0))
             continue;
-        without = trials[i];
-        status = attempt(r, without);
-        first = without ? first : status;
-        if (!status || r->layer_failed)
+        without = order[i];
+        trial *t = &of[without];
+        t->status = attempt(r, without);
+        if (!t->status || r->layer_failed)
             break;
-        snprintf(heard[without], sizeof heard[0], "%s",
-                 r->heard[0] ? r->heard : fg_status_name(status));
+        snprintf(t->why, sizeof t->why, "%s", r->heard[0] ? r->heard : fg_status_name(t->status));
     }
     const bool tried = r->trying;
     r->trying = false;
     for (int i = 0; i < r->sides; i++)
         r->side[i].muted = false;
-    if (!status) {
-        const char *const why[SIDES] = { heard[without == 3 ? 2 : 0], heard[without == 3 ? 1 : 0] };
-        if (without) {
-            drop_sides(r, without, "in its frame", why);
-            r->declared = true; // as it ran, and trimmed
-            r->trim_due = false;
-        }
+    if (!of[without].status) {
+        settle(r, without, of);
         return FG_OK;
     }
     r->declared = false;
     if (tried && !r->layer_failed)
-        fg_logf(r->desc.log, FG_LOG_ERROR, "%s", heard[0]);
-    return first;
+        fg_logf(r->desc.log, FG_LOG_ERROR, "%s", of[0].why);
+    return of[0].status;
 }
 
 fg_status renderer_frame(renderer *r, double time)

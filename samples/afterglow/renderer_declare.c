@@ -56,10 +56,12 @@ static void declare_output(renderer *r, branch *b, const ag_scene_res *scene, co
     ag_tone_declare(&b->tone, r->graph, "frame.tone", "frame.display");
 }
 
-static void declare_side(renderer *r, branch *b, const ag_scene_res *scene)
+static void declare_side(renderer *r, branch *b, const ag_scene_res *scene, const char *prefix)
 {
     gi_outputs gi = { 0 };
+    fg_prefix(r->graph, prefix);
     declare_plugin(r, b, scene, &gi);
+    fg_prefix(r->graph, prefix); // the plugin may have had one of its own
     declare_output(r, b, scene, &gi);
     const fg_res layers[] = {
         [LAYER_FINAL] = b->tone.out,
@@ -141,8 +143,7 @@ fg_status renderer_declare(renderer *r)
     const ag_direct_desc direct = { &scene, &r->gbuffer.out, r->shadow.maps, r->desc.shadow_taps };
     ag_direct_declare(&r->direct, g, r->gpu, &direct);
     for (int i = 0; i < r->sides; i++) {
-        fg_prefix(g, i ? "b:" : "");
-        declare_side(r, &r->side[i], &scene);
+        declare_side(r, &r->side[i], &scene, i ? "b:" : "");
     }
     fg_prefix(g, "");
     for (int i = 0; i < r->sides; i++)

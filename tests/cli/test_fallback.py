@@ -13,6 +13,7 @@ WHY = {
     'failing': "pass 'failing.fill' failed",
     'reaching': "asks for version 1 of 'gbuffer.normal', which it did not declare",
     'late': "pass 'late.fill' failed",
+    'unstarted': 'failed to start: unstarted: it is too cold',
 }
 
 

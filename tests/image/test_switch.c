@@ -273,7 +273,7 @@ static void passes_before_the_plugin_keep_their_textures(void **state)
 // ---- techniques that fail --------------------------------------------------------------------
 
 // One fault at a time, from frame `fault_from` on.
-typedef enum fault { SOUND, CREATE, UPDATE, DECLARE, PASS, TOUCH } fault;
+typedef enum fault { SOUND, CREATE, UPDATE, DECLARE, PASS, TOUCH, PREFIX } fault;
 typedef struct faulty {
     fault kind;
     uint64_t from, index;
@@ -327,6 +327,8 @@ static fg_status faulty_run(const fg_run *run, void *user)
 static void faulty_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
 {
     faulty *f = self;
+    if (f->kind == PREFIX)
+        fg_prefix(g, "own:");
     f->out = fg_texture(g, "faulty.light", &(fg_tex_desc){ .format = FG_RGBA16F });
     f->stranger = in->gbuffer.normal;
     const fg_res never = fg_texture(g, "faulty.never", &(fg_tex_desc){ .format = FG_RGBA16F });
@@ -540,6 +542,21 @@ static void of_two_sides_the_sound_one_stays(void **state)
     ag_scene_destroy(scene);
 }
 
+static void a_prefix_of_the_plugins_own_ends_with_it(void **state)
+{
+    (void) state;
+    ag_scene *scene = lit_room();
+    next_fault = PREFIX;
+    renderer *r = make(scene, &plugin_faulty, NULL);
+    run(r, 0);
+    char *text = fg_graph_dump(renderer_graph(r), FG_DUMP_TEXT);
+    assert_non_null(strstr(text, "own:faulty.light"));
+    assert_null(strstr(text, "own:frame"));
+    fg_dump_free(renderer_graph(r), text);
+    renderer_destroy(r);
+    ag_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -555,6 +572,7 @@ int main(void)
         cmocka_unit_test(a_layer_that_is_not_there_is_no_fault_of_the_plugin),
         cmocka_unit_test(what_fails_without_the_plugin_too_is_not_its_fault),
         cmocka_unit_test(a_strict_renderer_fails),
+        cmocka_unit_test(a_prefix_of_the_plugins_own_ends_with_it),
         cmocka_unit_test(of_two_sides_the_sound_one_stays),
     };
     return cmocka_run_group_tests(tests, device_setup, device_teardown);

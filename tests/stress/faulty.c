@@ -15,6 +15,7 @@
 #define FAILING 7    // a pass fails
 #define REACHING 8   // a pass touches what it did not declare
 #define LATE 9       // a pass fails in the third frame
+#define UNSTARTED 10 // fails in create
 
 static int created; // what makes one run differ from the next
 static uint64_t frame_index;
@@ -22,11 +23,12 @@ static fg_res stranger;
 
 static fg_status create(const gi_env *env, const gi_value *values, void **self)
 {
-    (void) env;
     (void) values;
-    *self = &created;
+    *self = FAULT == UNSTARTED ? NULL : &created;
     ++created;
-    return FG_OK;
+    if (FAULT == UNSTARTED)
+        fg_logf(env->log, FG_LOG_ERROR, FAULT_NAME ": it is too cold");
+    return FAULT == UNSTARTED ? FG_ERR_UNSUPPORTED : FG_OK;
 }
 
 static fg_status update(void *self, const gi_frame *frame)
