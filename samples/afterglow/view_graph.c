@@ -64,8 +64,10 @@ static void take(view_graph *g, const cJSON *root)
         view_graph_finish(g);
         return;
     }
-    cJSON_ArrayForEach(item, passes) copy_text(g->passes[g->pass_count++], VIEW_NAME, item, "name");
-    cJSON_ArrayForEach(item, resources) take_row(g, item);
+    for (item = passes ? passes->child : NULL; item; item = item->next)
+        copy_text(g->passes[g->pass_count++], VIEW_NAME, item, "name");
+    for (item = resources ? resources->child : NULL; item; item = item->next)
+        take_row(g, item);
     qsort(g->rows, (size_t) g->row_count, sizeof *g->rows, compare_rows);
 }
 

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import struct
 import subprocess
 import time
@@ -10,6 +11,8 @@ import zlib
 
 from harness import BINARY, fails, main, succeeds
 
+FAULTY, LAYERED = os.environ['FAULTY_PLUGINS'], os.environ['LAYERED_PLUGIN']
+BAD = (255, 106, 92)   # letters of a fault: ui_widgets_bridge.cpp
 GRAB = (163, 106, 36)  # what a slider is held by: ui_bridge.cpp
 PANEL = 390            # width of the panel at a scale of 1, pixels
 
@@ -250,6 +253,9 @@ def it_is_driven_by_keys_and_mouse(folder):
         # Split, layers, exposure, mouse: then the set is loaded again.
         viewer.key('x', 'split ')
         split = shot_of(viewer, 600, 560)
+        viewer.do('mousemove', 300, 540, 'mousedown', 1)
+        time.sleep(0.2)
+        viewer.do('mousemove', 450, 540, 'mouseup', 1)
         viewer.key('shift+n', 'split hisr\n')
         viewer.key('shift+n', 'split iir\n')
         viewer.key('l', 'layer radiance\n')
@@ -282,6 +288,53 @@ def it_is_driven_by_keys_and_mouse(folder):
         viewer.quits()
 
 
+def modules_come_and_go(folder):
+    modules = folder + '/modules'
+    os.mkdir(modules)
+
+    def install(module):
+        shutil.copy(module, modules + '/new')
+        os.rename(modules + '/new', modules + '/gi_layered.so')
+
+    args = ['cornell', '--size', '600x400', '--render-scale', 4, '--plugin-dir', modules, '--gi', 'none']
+    with Screen() as screen, Viewer(screen, folder, *args) as viewer:
+        viewer.wait('first frame after')
+        viewer.do('key', 'space')
+        viewer.key('r', 'plugin none\n')
+        plain = viewer.shot('F5')
+        # One that appears while the window is open is in the list: the last but those built in.
+        install(LAYERED)
+        time.sleep(3)
+        viewer.key('p', 'plugin layered\n')
+        viewer.key('k', 'layer layered.odd')
+        viewer.key('k', 'warning: .*layered.absent') # at these settings: it is not insisted on
+        viewer.wait('layer final')
+        # Another file in its place, then something that is no module.
+        install(LAYERED)
+        viewer.wait('layered: loaded again')
+        viewer.wait('plugin layered\n')
+        with open(modules + '/gi_layered.so', 'w') as f:
+            f.write('no module')
+        viewer.wait('goes on as it was')
+        viewer.key('n', 'plugin none\n')
+        assert read_png(viewer.shot('F5')) == read_png(plain)
+        viewer.quits()
+
+
+def a_fault_is_red_in_the_panel(folder):
+    args = ['cornell', '--size', '600x400', '--render-scale', 4, '--plugin-dir', FAULTY, '--gi', 'failing', '--gi', 'rsm']
+    with Screen() as screen, Viewer(screen, folder, *args) as viewer:
+        viewer.wait("warning: plugin 'failing' failed in its frame")
+        viewer.wait('first frame with failing')
+        faulty = crop(shot_of(viewer, 600, 400), 0, 20, PANEL, 80)
+        viewer.key('n', 'plugin rsm\n')
+        time.sleep(0.3)
+        sound = crop(shot_of(viewer, 600, 400), 0, 20, PANEL, 80)
+        red = [sum(row[3 * x:3 * x + 3] == bytes(BAD) for row in rows for x in range(PANEL)) for rows in (faulty, sound)]
+        assert red[0] > 100 and red[1] == 0, red
+        viewer.quits()
+
+
 if __name__ == '__main__':
     main([without_a_display_it_says_so, broken_sets_are_refused, a_picture_is_that_of_render,
-          it_is_driven_by_keys_and_mouse])
+          it_is_driven_by_keys_and_mouse, modules_come_and_go, a_fault_is_red_in_the_panel])
