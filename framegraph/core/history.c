@@ -161,6 +161,23 @@ void fg_history_trim(fg_graph *g, bool all)
     g->history_count = left;
 }
 
+void fg_graph_forget(fg_graph *g, const char *prefix)
+{
+    const size_t length = prefix ? strlen(prefix) : 0;
+    if (g->running) {
+        fg_misuse(g, "fg_graph_forget", "while the graph runs");
+        return;
+    }
+    for (uint32_t i = 0; i < g->history_count; i++) {
+        history_rec *h = &g->history[i];
+        if (length && strncmp(h->name, prefix, length) != 0)
+            continue;
+        destroy_objects(g, h);
+        h->res = NONE;    // a swap that is due is none of its
+        g->bound = false; // the next run makes it again
+    }
+}
+
 bool fg_history_is_valid(const fg_graph *g, uint32_t res)
 {
     for (uint32_t i = 0; i < g->history_count; i++)

@@ -149,7 +149,11 @@ static fg_status start_plugin(renderer *r, branch *b, const gi_plugin *plugin, g
         .scene = r->desc.scene,
         .gpu_scene = r->gpu,
     };
+    char names[64];
     drop_plugin(r, b);
+    // What an instance before it has left, of the same names: the next frame is its first.
+    snprintf(names, sizeof names, "%s%s.", b == r->side ? "" : RENDERER_SECOND, plugin->name);
+    fg_graph_forget(r->graph, names);
     r->heard[0] = 0;
     const fg_status status = plugin->create(&env, values, &b->self);
     b->frames = 0;

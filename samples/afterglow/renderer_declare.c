@@ -143,7 +143,7 @@ fg_status renderer_declare(renderer *r)
     const ag_direct_desc direct = { &scene, &r->gbuffer.out, r->shadow.maps, r->desc.shadow_taps };
     ag_direct_declare(&r->direct, g, r->gpu, &direct);
     for (int i = 0; i < r->sides; i++) {
-        declare_side(r, &r->side[i], &scene, i ? "b:" : "");
+        declare_side(r, &r->side[i], &scene, i ? RENDERER_SECOND : "");
     }
     fg_prefix(g, "");
     for (int i = 0; i < r->sides; i++)

@@ -12,6 +12,7 @@
 #include <pass/post.h>
 
 enum { SIDES = 2 };
+#define RENDERER_SECOND "b:" // what the second side's names begin with
 
 // A plugin and what shows its light.
 typedef struct branch {

@@ -312,6 +312,35 @@ static void exported_history_is_this_frames(void **state)
     rig_close(r);
 }
 
+static void forgetting_begins_anew_by_the_policy(void **state)
+{
+    (void) state;
+    static const char *const prefixes[] = { "h", "", NULL };
+    rig *r = rig_open(0);
+    seen s;
+    rig_begin(r);
+    declare(r, &s, &clear_first);
+    for (int i = 0; i < FG_COUNT(prefixes); i++) {
+        rig_must_run(r);
+        rig_must_run(r);
+        assert_true(s.valid);
+        const int live = fg_null_live_objects(r->dev);
+        fg_graph_forget(r->g, prefixes[i]);
+        rig_must_run(r);
+        assert_false(s.valid);
+        assert_non_null(strstr(fg_null_log(r->dev), "to 0 0 0 0\nframe")); // zeros again
+        assert_int_not_equal(s.read, s.written);
+        rig_must_run(r);
+        assert_true(s.valid);
+        assert_int_equal(fg_null_live_objects(r->dev), live);
+    }
+    fg_graph_forget(r->g, "hist"); // no name begins so
+    rig_must_run(r);
+    assert_true(s.valid);
+    assert_int_equal(fg_graph_get_stats(r->g).compiles, 1);
+    rig_close(r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -328,6 +357,7 @@ int main(void)
         cmocka_unit_test(failed_frame_leaves_last_frame_as_it_was),
         cmocka_unit_test(reader_of_a_history_whose_writer_is_left_out_is_refused),
         cmocka_unit_test(exported_history_is_this_frames),
+        cmocka_unit_test(forgetting_begins_anew_by_the_policy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

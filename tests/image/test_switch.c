@@ -270,6 +270,104 @@ static void passes_before_the_plugin_keep_their_textures(void **state)
     ag_scene_destroy(scene);
 }
 
+// ---- histories -------------------------------------------------------------------------------
+
+// Adds 1 to what the last frame left, and says whether that was there.
+typedef struct rememberer {
+    fg_res now, before;
+} rememberer;
+static bool history_was_valid;
+
+static fg_status remember_create(const gi_env *env, const gi_value *values, void **self)
+{
+    (void) env;
+    (void) values;
+    *self = calloc(1, sizeof(rememberer));
+    return *self ? FG_OK : FG_ERR_MEMORY;
+}
+
+static fg_status remember_run(const fg_run *run, void *user)
+{
+    const rememberer *m = user;
+    float texel[4] = { 0 };
+    history_was_valid = fg_run_history_valid(run, m->before);
+    glGetTextureSubImage(fg_run_object(run, m->before), 0, 0, 0, 0, 1, 1, 1, GL_RGBA, GL_FLOAT,
+                         sizeof texel, texel);
+    for (int i = 0; i < 4; i++)
+        texel[i] += 1;
+    glClearTexImage(fg_run_object(run, m->now), 0, GL_RGBA, GL_FLOAT, texel);
+    return FG_OK;
+}
+
+static void remember_declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
+{
+    rememberer *m = self;
+    (void) in;
+    m->now = fg_texture(g, "memory.sum",
+                        &(fg_tex_desc){ .format = FG_RGBA32F, .history = FG_HISTORY_CLEAR });
+    m->before = fg_last_frame(g, m->now);
+    const fg_pass_desc add = {
+        .name = "memory.add",
+        .kind = FG_KIND_COMPUTE,
+        .reads = { { m->before, FG_USE_COPY } },
+        .writes = { { m->now, FG_USE_COPY, FG_LOAD_DISCARD } },
+        .run = remember_run,
+        .user = m,
+    };
+    fg_passes(g, &add, 1);
+    out->layers[0] = m->now;
+}
+
+static float remembered(renderer *r, bool second)
+{
+    run(r, 0);
+    assert_null(renderer_fault(r));
+    image img = second ? read_second(r, LAYER_PLUGIN) : read_first(r, LAYER_PLUGIN);
+    const float sum = img.rgb[0];
+    image_finish(&img);
+    return sum;
+}
+
+static void histories_begin_anew_after_each_switch(void **state)
+{
+    (void) state;
+    static const gi_param none[] = { { .name = NULL } };
+    static const gi_layer layers[] = { { "sum", "for tests" }, { NULL } };
+    static const gi_plugin memory = { .abi = GI_PLUGIN_ABI,
+                                      .name = "memory",
+                                      .params = none,
+                                      .layers = layers,
+                                      .create = remember_create,
+                                      .declare = remember_declare,
+                                      .destroy = free };
+    const renderer_side second = { .plugin = &memory, .layers = 1u << LAYER_PLUGIN };
+    ag_scene *scene = lit_room();
+    renderer *r = make(scene, &memory, NULL);
+    assert_int_equal(renderer_set_layers(r, 1u << LAYER_PLUGIN), FG_OK);
+    for (int i = 0; i < 4; i++) {
+        for (int k = 1; k <= 3; k++) {
+            assert_true(remembered(r, false) == (float) k);
+            assert_int_equal(history_was_valid, k > 1);
+        }
+        // The second side has a history of its own, and the first goes on with it.
+        assert_int_equal(renderer_set_split(r, &second), FG_OK);
+        assert_true(remembered(r, true) == 1);
+        assert_true(remembered(r, true) == 2);
+        assert_true(remembered(r, false) == 6);
+        assert_int_equal(renderer_set_split(r, NULL), FG_OK);
+        // Another technique and back; away and back without a frame; made again.
+        if (i == 0) {
+            assert_int_equal(renderer_set_plugin(r, plugin_rsm(), NULL), FG_OK);
+            run(r, 0);
+        } else if (i == 1) {
+            assert_int_equal(renderer_set_plugin(r, NULL, NULL), FG_OK);
+        }
+        assert_int_equal(renderer_set_plugin(r, &memory, NULL), FG_OK);
+    }
+    renderer_destroy(r);
+    ag_scene_destroy(scene);
+}
+
 // ---- techniques that fail --------------------------------------------------------------------
 
 // One fault at a time, from frame `fault_from` on.
@@ -566,6 +664,7 @@ int main(void)
         cmocka_unit_test(a_split_that_ends_frees_its_half),
         cmocka_unit_test(exposure_changes_without_a_compile),
         cmocka_unit_test(passes_before_the_plugin_keep_their_textures),
+        cmocka_unit_test(histories_begin_anew_after_each_switch),
         cmocka_unit_test(a_plugin_that_fails_leaves_direct_light_in_the_same_frame),
         cmocka_unit_test(a_plugin_that_does_not_start_is_told_of),
         cmocka_unit_test(layers_of_a_dropped_plugin_are_missed_by_nobody),

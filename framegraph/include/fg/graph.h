@@ -101,9 +101,9 @@ FG_API fg_res fg_import_buffer(fg_graph *g, const char *name, const fg_buf_desc 
 // Last frame's final contents of a resource declared with a history policy;
 // `res` is any version of it. Reading it keeps the resource's writers. Histories
 // are known by name and survive recompiles, culling and declarations that leave
-// them out, until fg_graph_trim(); a new size or format resets them and the log
-// says why. What to read is resolved when the frame runs. A frame that fails changes
-// no history.
+// them out, until fg_graph_trim() or fg_graph_forget(); a new size or format resets them and the
+// log says why. What to read is resolved when the frame runs. A frame that fails changes no
+// history.
 FG_API fg_res fg_last_frame(fg_graph *g, fg_res res);
 
 // Keeps a version beyond the frame: it is not culled, shares no memory, and
@@ -271,6 +271,10 @@ FG_API FG_NODISCARD fg_status fg_graph_run(fg_graph *g);
 
 // Frees pooled device memory and histories that the compiled graph does not use.
 FG_API void fg_graph_trim(fg_graph *g);
+
+// Histories of resources whose names begin with `prefix` begin anew in the next frame, as their
+// policies say: for a technique that was created again, a cut. NULL: all histories.
+FG_API void fg_graph_forget(fg_graph *g, const char *prefix);
 
 // The object of an exported version after a run; 0 where it was never made.
 FG_API uint32_t fg_graph_exported(const fg_graph *g, fg_res res);
