@@ -3,56 +3,30 @@
 
 #include "builtin.h"
 
-#include <stdio.h>
-#include <string.h>
-
 enum { TEXTURE_SIZE = 512 };
 
-// Base colours multiply the texture, linear. Everything is diffuse, so that a technique for
+// Everything is diffuse, so that a technique for
 // diffuse light can be held against the whole truth here.
-static const struct {
-    const char *name;
-    int texture; // a pattern, -1: none
-    float color[3];
-} looks[ATRIUM_MATERIALS] = {
-    [ATRIUM_ASHLAR] = { "ashlar", PATTERN_ASHLAR, { 1, 1, 1 } },
-    [ATRIUM_LIMESTONE] = { "limestone", PATTERN_LIMESTONE, { 1, 1, 1 } },
-    [ATRIUM_PLASTER] = { "plaster", PATTERN_PLASTER, { 1, 1, 1 } },
+static const kit_look looks[ATRIUM_MATERIALS] = {
+    [ATRIUM_ASHLAR] = { "ashlar", PATTERN_ASHLAR, { 1, 1, 1 }, .size = TEXTURE_SIZE },
+    [ATRIUM_LIMESTONE] = { "limestone", PATTERN_LIMESTONE, { 1, 1, 1 }, .size = TEXTURE_SIZE },
+    [ATRIUM_PLASTER] = { "plaster", PATTERN_PLASTER, { 1, 1, 1 }, .size = TEXTURE_SIZE },
     [ATRIUM_WHITEWASH] = { "whitewash", -1, { 0.72f, 0.69f, 0.63f } },
-    [ATRIUM_BRICK] = { "brick", PATTERN_BRICK, { 1, 1, 1 } },
-    [ATRIUM_PAVING] = { "paving", PATTERN_PAVING, { 1, 1, 1 } },
-    [ATRIUM_TERRACOTTA] = { "terracotta", PATTERN_TERRACOTTA, { 1, 1, 1 } },
-    [ATRIUM_CLAY] = { "clay", PATTERN_CLAY, { 1, 1, 1 } },
-    [ATRIUM_WOOD] = { "wood", PATTERN_WOOD, { 1, 1, 1 } },
-    [ATRIUM_RED] = { "red cloth", PATTERN_FABRIC, { 0.72f, 0.06f, 0.045f } },
-    [ATRIUM_GREEN] = { "green cloth", PATTERN_FABRIC, { 0.10f, 0.42f, 0.11f } },
-    [ATRIUM_BLUE] = { "blue cloth", PATTERN_FABRIC, { 0.07f, 0.17f, 0.58f } },
-    [ATRIUM_LEAVES] = { "leaves", PATTERN_LEAVES, { 1, 1, 1 } },
+    [ATRIUM_BRICK] = { "brick", PATTERN_BRICK, { 1, 1, 1 }, .size = TEXTURE_SIZE },
+    [ATRIUM_PAVING] = { "paving", PATTERN_PAVING, { 1, 1, 1 }, .size = TEXTURE_SIZE },
+    [ATRIUM_TERRACOTTA] = { "terracotta", PATTERN_TERRACOTTA, { 1, 1, 1 }, .size = TEXTURE_SIZE },
+    [ATRIUM_CLAY] = { "clay", PATTERN_CLAY, { 1, 1, 1 }, .size = TEXTURE_SIZE },
+    [ATRIUM_WOOD] = { "wood", PATTERN_WOOD, { 1, 1, 1 }, .size = TEXTURE_SIZE },
+    [ATRIUM_RED] = { "red cloth", PATTERN_FABRIC, { 0.72f, 0.06f, 0.045f }, .size = TEXTURE_SIZE },
+    [ATRIUM_GREEN] = { "green cloth",
+                       PATTERN_FABRIC,
+                       { 0.10f, 0.42f, 0.11f },
+                       .size = TEXTURE_SIZE },
+    [ATRIUM_BLUE] = { "blue cloth", PATTERN_FABRIC, { 0.07f, 0.17f, 0.58f }, .size = TEXTURE_SIZE },
+    [ATRIUM_LEAVES] = { "leaves", PATTERN_LEAVES, { 1, 1, 1 }, .size = TEXTURE_SIZE },
     [ATRIUM_BRASS] = { "brass", -1, { 0.48f, 0.32f, 0.12f } },
     [ATRIUM_WATER] = { "water", -1, { 0.10f, 0.20f, 0.20f } },
 };
-
-static void add_materials(atrium *a)
-{
-    int texture[PATTERN_COUNT];
-    memset(texture, 0xff, sizeof texture); // -1: not painted yet
-    for (int i = 0; i < ATRIUM_MATERIALS; ++i) {
-        ag_material m = ag_default_material();
-        snprintf(m.name, sizeof m.name, "%s", looks[i].name);
-        memcpy(m.base_color, looks[i].color, sizeof looks[i].color);
-        const int what = looks[i].texture;
-        if (what >= 0) {
-            if (texture[what] < 0)
-                texture[what] = kit_texture(&a->k, looks[i].name, (pattern) what, TEXTURE_SIZE);
-            m.base_color_tex.texture = texture[what];
-        }
-        if (what == PATTERN_LEAVES) {
-            m.alpha = AG_ALPHA_MASK;
-            m.alpha_cutoff = 0.5f;
-        }
-        a->material[i] = ag_builder_material(a->k.builder, &m);
-    }
-}
 
 // From the west around the fountain, through an arch, along the southern aisle and back.
 static const kit_stop stops[] = {
@@ -88,7 +62,7 @@ fg_status atrium_build(const fg_log *log, ag_scene **out)
         return FG_ERR_MEMORY;
     for (int i = 0; i < 4; ++i)
         a.side[i] = kit_node(&a.k, names[i], -1, (place){ .yaw = 1.57079632679489661923 * i });
-    add_materials(&a);
+    kit_materials(&a.k, looks, ATRIUM_MATERIALS, a.material);
     atrium_add_structure(&a);
     atrium_add_furnishing(&a);
     atrium_add_life(&a);

@@ -30,6 +30,10 @@ void kit_materials(kit *k, const kit_look *looks, int count, int *material)
         const bool glows = look->emissive[0] + look->emissive[1] + look->emissive[2] > 0.0f;
         const int painted = texture_of(k, look, look->texture, texture);
         *(glows ? &m.emissive_tex : &m.base_color_tex) = (ag_texture_ref){ .texture = painted };
+        if (!glows && painted >= 0 && pattern_is_masked((pattern) look->texture)) {
+            m.alpha = AG_ALPHA_MASK;
+            m.alpha_cutoff = 0.5f;
+        }
         material[i] = ag_builder_material(k->builder, &m);
     }
 }

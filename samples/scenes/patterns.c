@@ -176,6 +176,7 @@ static void (*const painters[PATTERN_COUNT])(brush *p, float rgba[4]) = {
     [PATTERN_BELT] = paint_belt,
     [PATTERN_SHEET] = paint_sheet,
     [PATTERN_HAZARD] = paint_hazard,
+    [PATTERN_FRESCO] = paint_fresco,
 };
 
 enum { ENCODE_STEPS = 4096 };
@@ -236,4 +237,9 @@ void pattern_paint(pattern what, int size, uint8_t *rgba)
     for (int i = 0; i < THREADS; ++i)
         if (started[i])
             pthread_join(threads[i], NULL);
+}
+
+bool pattern_is_masked(pattern what)
+{
+    return what == PATTERN_LEAVES;
 }

@@ -29,11 +29,15 @@ typedef enum pattern {
     PATTERN_BELT,       // rubber with a chevron that points to +v, 1 m
     PATTERN_SHEET,      // corrugated steel, ribs along v, 1 m
     PATTERN_HAZARD,     // yellow and black, 0.5 m
+    PATTERN_FRESCO,     // painted plaster, near white: colour from the material, 3 m
     PATTERN_COUNT,
 } pattern;
 
 // Paints RGBA8, sRGB-encoded, `size` x `size`, a power of two.
 void pattern_paint(pattern what, int size, uint8_t *rgba);
+
+// Whether it has texels of alpha 0, to be left out.
+bool pattern_is_masked(pattern what);
 
 FG_END
 

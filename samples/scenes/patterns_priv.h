@@ -150,5 +150,7 @@ void paint_concrete(brush *p, float rgba[4]);
 void paint_belt(brush *p, float rgba[4]);
 void paint_sheet(brush *p, float rgba[4]);
 void paint_hazard(brush *p, float rgba[4]);
+// patterns_garden.c
+void paint_fresco(brush *p, float rgba[4]);
 
 #endif // PATTERNS_PRIV_H

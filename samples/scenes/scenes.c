@@ -30,6 +30,8 @@ static const builtin_scene table[] = {
     { "living-room",
       "an evening room: sun through a window, lamps, a television whose picture changes",
       LIVE | ROOM_FEATURES, living_room_build },
+    { "maze", "a winding corridor around a statue, lit through one opening: light around corners",
+      LIVE | AG_FEATURE_SPOT_LIGHT | AG_FEATURE_TEXTURES, maze_build },
 };
 
 const builtin_scene *scenes_builtin(int i)

@@ -133,23 +133,27 @@ void shape_quad(shape *s, const float corners[4][3])
     shape_triangle(s, index[0], index[2], index[3]);
 }
 
+void shape_box_face(shape *s, const float lo[3], const float hi[3], int face)
+{
+    // The axis the face looks along, then the face's own two: u horizontal where it can be.
+    const int n = face / 2, a = n == 0 ? 2 : 0, b = n == 1 ? 2 : 1;
+    float normal[3] = { 0, 0, 0 };
+    normal[n] = face % 2 ? 1.0f : -1.0f;
+    const uint32_t first = (uint32_t) s->vertex_count;
+    for (int i = 0; i < 4; ++i) {
+        float p[3];
+        p[n] = face % 2 ? hi[n] : lo[n];
+        p[a] = i & 1 ? hi[a] : lo[a];
+        p[b] = i & 2 ? hi[b] : lo[b];
+        shape_vertex(s, p, normal, p[a], -p[b]);
+    }
+    shape_lattice(s, first, 1, 1);
+}
+
 void shape_box(shape *s, const float lo[3], const float hi[3])
 {
-    for (int face = 0; face < 6; ++face) {
-        // The axis the face looks along, then the face's own two: u horizontal where it can be.
-        const int n = face / 2, a = n == 0 ? 2 : 0, b = n == 1 ? 2 : 1;
-        float normal[3] = { 0, 0, 0 };
-        normal[n] = face % 2 ? 1.0f : -1.0f;
-        const uint32_t first = (uint32_t) s->vertex_count;
-        for (int i = 0; i < 4; ++i) {
-            float p[3];
-            p[n] = face % 2 ? hi[n] : lo[n];
-            p[a] = i & 1 ? hi[a] : lo[a];
-            p[b] = i & 2 ? hi[b] : lo[b];
-            shape_vertex(s, p, normal, p[a], -p[b]);
-        }
-        shape_lattice(s, first, 1, 1);
-    }
+    for (int face = 0; face < 6; ++face)
+        shape_box_face(s, lo, hi, face);
 }
 
 // The profile's outward normal (radial, up) on segment `i`; false where it has no length.

@@ -37,6 +37,8 @@ void shape_lattice(shape *s, uint32_t first, int nu, int nv);
 // A flat quad, corners in order around it; the normal is (p1 - p0) x (p3 - p0).
 void shape_quad(shape *s, const float corners[4][3]);
 void shape_box(shape *s, const float lo[3], const float hi[3]);
+// One side of it: 2 x axis for the low one, and 1 for the high one.
+void shape_box_face(shape *s, const float lo[3], const float hi[3], int face);
 
 // A box with edges and corners rounded by `radius`, at most half the least side; each quarter turn
 // of an edge has `segments` flats. Closed.
@@ -127,6 +129,32 @@ typedef struct shape_vault_desc {
     int segments; // of one barrel
 } shape_vault_desc;
 void shape_vault(shape *s, const shape_vault_desc *desc);
+
+// ---- fields (shapes_field.c) -----------------------------------------------------
+
+// The surface of a solid given by a field, negative inside: one vertex in every cell of a grid that
+// the surface goes through. Closed where the whole surface is inside of the box.
+// Source: Gibson. Constrained Elastic Surface Nets. MICCAI 1998; unconstrained, vertices in the
+//         middle of where the surface meets the cell's edges.
+typedef struct shape_field_desc {
+    float (*field)(const void *user, const float p[3]); // metres, about the distance
+    const void *user;
+    float lo[3], hi[3];
+    float cell;     // metres
+    float steepest; // the field changes by no more than so much a metre, >= 1
+} shape_field_desc;
+void shape_field(shape *s, const shape_field_desc *desc);
+
+// What fields are put together from: the distance from `p` to a ball stretched to radii `r` (near
+// it), to a bar from `a` to `b` whose radius goes from `ra` to `rb`; two solids joined, rounded off
+// over `k` metres.
+float field_ball(const float p[3], const float centre[3], const float r[3]);
+float field_bar(const float p[3], const float a[3], const float b[3], float ra, float rb);
+float field_join(float a, float b, float k);
+
+// Normals of what was appended since: the mean of the faces around, none of which then winds
+// against one of its vertices' normals.
+void shape_smooth(shape *s, size_t first_vertex, size_t first_index);
 
 FG_END
 
