@@ -199,21 +199,6 @@ static void every_camera_looks_at_the_scene(void **state)
     for_all(check_cameras);
 }
 
-// Whether some light reaches the point.
-static bool is_lit(const ag_scene *s, const soup *w, const double at[3])
-{
-    for (int i = 0; i < s->light_count; ++i) {
-        double distance;
-        float e[3], to_light[3];
-        ag_light_eval(&s->lights[i], at, e, to_light, &distance);
-        const double towards[3] = { (double) to_light[0], (double) to_light[1],
-                                    (double) to_light[2] };
-        if (e[0] > 0.0f && soup_nearest(w, at, towards, distance) >= distance)
-            return true;
-    }
-    return false;
-}
-
 // Of 12 x 12 rays of the first camera: how many meet something, and how many of those points some
 // light reaches.
 static void lit_share(const ag_scene *s, int *seen, int *lit)
@@ -230,7 +215,7 @@ static void lit_share(const ag_scene *s, int *seen, int *lit)
         ++*seen;
         for (int i = 0; i < 3; ++i)
             at[i] = from[i] + (t - 1e-4) * direction[i];
-        *lit += is_lit(s, &w, at);
+        *lit += scene_lit(s, &w, at);
     }
     free(w.corners);
 }

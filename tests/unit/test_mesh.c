@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "test_mesh.h"
 
+#include <pass/surface.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -215,4 +217,18 @@ double soup_nearest(const soup *s, const double from[3], const double direction[
     for (size_t i = 0; i < s->count; ++i)
         best = fmin(best, meet(s->corners[i], from, direction));
     return best;
+}
+
+bool scene_lit(const ag_scene *s, const soup *w, const double at[3])
+{
+    for (int i = 0; i < s->light_count; ++i) {
+        double distance;
+        float e[3], to_light[3];
+        ag_light_eval(&s->lights[i], at, e, to_light, &distance);
+        const double towards[3] = { (double) to_light[0], (double) to_light[1],
+                                    (double) to_light[2] };
+        if (e[0] > 0.0f && soup_nearest(w, at, towards, distance) >= distance)
+            return true;
+    }
+    return false;
 }

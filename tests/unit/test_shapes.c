@@ -132,6 +132,53 @@ static void sphere_and_tube_are_solids(void **state)
     shape_finish(&s);
 }
 
+// Two balls that touch, the upper one with a sharp rim cut into it: concave, convex and creased.
+static float pawn(const void *user, const float p[3])
+{
+    static const float low[3] = { 0, 0.3f, 0 }, high[3] = { 0, 0.85f, 0 };
+    (void) user;
+    const float foot = field_ball(p, low, (float[3]){ 0.3f, 0.3f, 0.3f });
+    const float head = field_ball(p, high, (float[3]){ 0.3f, 0.25f, 0.3f });
+    return fmaxf(field_join(foot, head, 0.05f), p[1] - 0.95f);
+}
+
+static float ball(const void *user, const float p[3])
+{
+    static const float centre[3] = { 0.11f, 0.213f, 0.307f };
+    (void) user;
+    return field_ball(p, centre, (float[3]){ 0.5f, 0.5f, 0.5f });
+}
+
+static void field_becomes_a_solid(void **state)
+{
+    (void) state;
+    shape s = { 0 };
+    const shape_field_desc round = {
+        .field = ball, .lo = { -1, -1, -1 }, .hi = { 1, 1, 1 }, .cell = 0.05f, .steepest = 1.0f
+    };
+    shape_field(&s, &round);
+    // Points of the sphere up to half a cell's diagonal from their mean, 43 mm, put that 43^2 / (2
+    // R) = 1.9 mm of 500 too far in at most, and the faces another (cell^2 / 8 R) = 0.6 mm: 3 x 0.5
+    // %.
+    check_solid(&s, 4.0 / 3.0 * 3.14159265358979 * 0.125, 0.015);
+    shape_finish(&s);
+
+    const shape_field_desc creased = { .field = pawn,
+                                       .lo = { -0.5f, -0.5f, -0.5f },
+                                       .hi = { 0.5f, 1.5f, 0.5f },
+                                       .cell = 0.02f,
+                                       .steepest = 1.5f };
+    shape_field(&s, &creased);
+    const mesh m = view(&s);
+    float lo[3], hi[3];
+    assert_int_equal(mesh_open_edges(&m), 0);
+    assert_int_equal(mesh_faces_against_normals(&m), 0);
+    assert_true(mesh_worst_normal(&m) < 1e-5);
+    mesh_bounds(&m, lo, hi);
+    assert_true(fabsf(lo[1]) < 0.02f && fabsf(hi[1] - 0.95f) < 0.02f);
+    shape_finish(&s);
+}
+
 static void arcade_is_a_wall_without_its_arches(void **state)
 {
     (void) state;
@@ -344,6 +391,7 @@ int main(void)
         cmocka_unit_test(lathe_with_an_inside_loses_the_hollow),
         cmocka_unit_test(fluted_lathe_is_thinner_and_its_normals_follow_the_flutes),
         cmocka_unit_test(sphere_and_tube_are_solids),
+        cmocka_unit_test(field_becomes_a_solid),
         cmocka_unit_test(arcade_is_a_wall_without_its_arches),
         cmocka_unit_test(archivolt_is_half_a_ring),
         cmocka_unit_test(frame_is_a_mitred_ring_whichever_way_its_profile_runs),
