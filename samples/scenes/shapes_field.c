@@ -60,7 +60,9 @@ static float sample(const net *w, const float at[3])
     float p[3];
     for (int k = 0; k < 3; ++k)
         p[k] = w->d->lo[k] + at[k] * w->d->cell;
-    return w->d->field(w->d->user, p);
+    const float value = w->d->field(w->d->user, p), least = 0.02f * w->d->cell;
+    // Off the surface: cells that meet it in one point would give faces without area.
+    return fabsf(value) >= least ? value : value < 0.0f ? -least : least;
 }
 
 // The points of one block: the value in its middle for all, where the surface cannot be near.
