@@ -273,6 +273,7 @@ static fg_status open_window(view *v)
         .width = o->width ? o->width : 1280,
         .height = o->height ? o->height : 720,
         .debug = o->debug || o->verbose,
+        .enlarge = !o->width,
         .unthrottled = o->frames > 0,
     };
     return view_window_open(&v->window, &desc);

@@ -224,12 +224,13 @@ static void main_panel(view *v)
 static void help_window(view *v)
 {
     const float em = ui_unit(), widths[] = { 9 * em, 36 * em };
+    const float most = (float) v->window.height - 4 * em, tall = 60 * em;
     const ui_window window = {
         .title = "Keys",
         .x = 0.5f * (float) v->window.width - 23 * em,
-        .y = 3 * em,
+        .y = 2 * em,
         .width = 46 * em,
-        .height = 46 * em,
+        .height = tall < most ? tall : most,
     };
     const view_key_help *key;
     if (ui_window_begin(&window, &v->help) && ui_table_begin("keys", widths, FG_COUNT(widths))) {

@@ -11,7 +11,8 @@
 // "%.4g W/m^2" in `text`.
 static const char *format_of(const gi_param *row, const char *number, char *text, size_t size)
 {
-    const bool pure = !row->unit || row->unit[0] == '1'; // "1 a frame" beside a number misleads
+    const bool pure = !row->unit || (row->unit[0] == '1' &&
+                                     row->unit[1] != '/'); // "1 a frame" beside a number misleads
     snprintf(text, size, "%s%s%s", number, pure ? "" : " ", pure ? "" : row->unit);
     return strchr(text + strlen(number), '%') ? number : text; // a unit is no format
 }

@@ -133,6 +133,7 @@ static void create(view_window *w, const view_window_desc *desc)
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
         glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, desc->debug);
+        glfwWindowHint(GLFW_SCALE_TO_MONITOR, desc->enlarge);
         glfwWindowHint(GLFW_DEPTH_BITS, 0);
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
         w->handle = glfwCreateWindow(desc->width, desc->height, desc->title, NULL, NULL);

@@ -45,6 +45,7 @@ typedef struct view_window_desc {
     const char *title;
     int width, height; // wanted, in the screen's units
     bool debug;        // a debug context
+    bool enlarge;      // by the screen's scale
     bool unthrottled;  // do not wait for the screen between frames
 } view_window_desc;
 
