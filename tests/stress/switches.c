@@ -383,7 +383,10 @@ static bool run(stress *s, const char *self, int count)
     good = !grown("bytes of the graph", early.pool, late.pool);
     good = !grown("bytes of OpenGL's objects", early.gl, late.gl) && good;
     good = !grown("objects", early.objects, late.objects) && good;
-    return !grown("resident bytes", early.resident, late.resident) && good;
+    // Less is no leak: that much comes and goes with what the allocator holds back.
+    return !(late.resident > early.resident &&
+             grown("resident bytes", early.resident, late.resident)) &&
+           good;
 }
 
 int main(int argc, char **argv)
