@@ -195,6 +195,7 @@ static fg_status set_side(renderer *r, branch *b, const gi_plugin *plugin, const
     if (plugin == b->plugin && plugin->set && plugin->set(b->self, own) == FG_OK) {
         free(b->values);
         b->values = own;
+        r->trim_due = true;
         return FG_OK;
     }
     const fg_status status = start_plugin(r, b, plugin, own);

@@ -42,7 +42,7 @@ struct renderer {
     bool trying;       // a failure may be a plugin's: errors are not said yet
     char heard[512];   // the first of them
     char fault[768];   // renderer_fault(), or ""
-    bool trim_due;     // a plugin or a size has gone
+    bool trim_due;     // a plugin or its values have gone
     bool layer_failed; // a layer that was asked for is not there
 
     bool declared;

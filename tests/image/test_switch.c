@@ -95,6 +95,22 @@ static void a_split_that_ends_frees_its_half(void **state)
     ag_scene_destroy(scene);
 }
 
+static void other_values_free_what_they_do_not_need(void **state)
+{
+    (void) state;
+    ag_scene *scene = lit_room();
+    gi_value few[MAX_VALUES];
+    set(plugin_rsm(), few, "rsm_size=32");
+    renderer *r = make(scene, plugin_rsm(), NULL);
+    run(r, 0);
+    assert_int_equal(renderer_set_plugin(r, plugin_rsm(), few), FG_OK);
+    run(r, 0);
+    const fg_graph_stats stats = fg_graph_get_stats(renderer_graph(r));
+    assert_int_equal(stats.pool_bytes, stats.transient_bytes + stats.persistent_bytes);
+    renderer_destroy(r);
+    ag_scene_destroy(scene);
+}
+
 static void exposure_changes_without_a_compile(void **state)
 {
     (void) state;
@@ -286,6 +302,7 @@ int main(void)
         cmocka_unit_test(one_technique_with_two_settings_shares_one_frame),
         cmocka_unit_test(second_side_is_direct_light_without_a_plugin),
         cmocka_unit_test(a_split_that_ends_frees_its_half),
+        cmocka_unit_test(other_values_free_what_they_do_not_need),
         cmocka_unit_test(exposure_changes_without_a_compile),
         cmocka_unit_test(passes_before_the_plugin_keep_their_textures),
         cmocka_unit_test(histories_begin_anew_after_each_switch),
