@@ -75,6 +75,11 @@ typedef struct kit_swing_desc {
 } kit_swing_desc;
 void kit_swing(kit *k, int node, const kit_swing_desc *desc);
 
+// A point of an oval around the origin, `way` metres along it from (-half, -radius): two straights
+// along x of 2 `half`, and two half rings. `at` is x and z; returns the yaw of what goes there with
+// -z ahead.
+float kit_oval(float half, float radius, float way, float *const at[2]);
+
 // A camera that goes smoothly from stop to stop and back to the first, within `seconds`; the way
 // from one to the next takes longer the further the eye goes and the target turns away.
 typedef struct kit_stop {

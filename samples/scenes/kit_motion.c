@@ -61,6 +61,22 @@ void kit_swing(kit *k, int node, const kit_swing_desc *desc)
     kit_move(k, &m);
 }
 
+float kit_oval(float half, float radius, float way, float *const at[2])
+{
+    const float bend = 0.5f * tau * radius, straight = 2.0f * half,
+                length = 2.0f * (bend + straight);
+    way -= length * floorf(way / length);
+    const bool back = way >= bend + straight;
+    way -= back ? bend + straight : 0.0f;
+    const float angle = way > straight ? (way - straight) / radius : 0.0f;
+    const float along = way < straight ? way : straight;
+    // Along +x at -z, then around the end; the other half is the same turned by 180 degrees.
+    const float x = along - half + radius * sinf(angle), z = -radius * cosf(angle);
+    *at[0] = back ? -x : x;
+    *at[1] = back ? -z : z;
+    return -0.25f * tau - angle + (back ? 0.5f * tau : 0.0f);
+}
+
 // ---- walks ---------------------------------------------------------------------------
 
 enum { STOPS_MAX = 64 };

@@ -91,8 +91,8 @@ static void add_bulb(living_room *r, int node, const char *name, double height, 
     bulb.intensity[0] = fabsf(watts);
     bulb.intensity[1] = 0.76f * fabsf(watts);
     bulb.intensity[2] = 0.50f * fabsf(watts);
-    bulb.cos_inner = cosf(0.55f);
-    bulb.cos_outer = cosf(0.90f); // the shade's openings
+    bulb.cos_inner = cosf(0.50f);
+    bulb.cos_outer = cosf(0.82f); // the shade's openings
     memcpy(bulb.name, name, strlen(name) + 1);
     ag_builder_light(r->k.builder, ag_builder_node(r->k.builder, &aim), &bulb);
 }
@@ -253,22 +253,9 @@ static void add_clock(living_room *r)
 
 static const float track_half = 0.62f, track_radius = 0.62f; // two straights and two half rings
 
-// Where the track is after `way` metres, and its heading around +Y; a train looks along -z.
 static float track_at(float way, float *x, float *z)
 {
-    const float bend = 0.5f * tau * track_radius, straight = 2.0f * track_half;
-    const float length = 2.0f * (bend + straight);
-    way -= length * floorf(way / length);
-    const bool back = way >= bend + straight;
-    way -= back ? bend + straight : 0.0f;
-    const float angle = way > straight ? (way - straight) / track_radius : 0.0f;
-    const float along = way < straight ? way : straight;
-    // Along +x at -z, then around the end; the other half is the same turned by 180 degrees.
-    const float px = along - track_half + track_radius * sinf(angle),
-                pz = -track_radius * cosf(angle);
-    *x = back ? -px : px;
-    *z = back ? -pz : pz;
-    return -0.25f * tau - angle + (back ? 0.5f * tau : 0.0f);
+    return kit_oval(track_half, track_radius, way, (float *[2]){ x, z });
 }
 
 static float wagon_way(const void *user, float t)

@@ -24,7 +24,7 @@ typedef enum pattern {
     PATTERN_PICTURES,   // four paintings, a quarter each
     PATTERN_TELEVISION, // 4 x 4 pictures of a film, in rows; four of each programme
     PATTERN_EVENING,    // what is seen through a window, once
-    PATTERN_CARTON,     // one side of a box with its tape
+    PATTERN_CARTON,     // one side of a box with its tape, near white: takes the material's colour
     PATTERN_CONCRETE,   // a slab with its joints, 4 m
     PATTERN_BELT,       // rubber with a chevron that points to +v, 1 m
     PATTERN_SHEET,      // corrugated steel, ribs along v, 1 m

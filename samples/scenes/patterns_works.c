@@ -5,8 +5,8 @@
 void paint_carton(brush *p, float rgba[4])
 {
     const float u = p->u, v = p->v;
-    static const float board[3] = { 0.42f, 0.29f, 0.165f }, tape[3] = { 0.50f, 0.38f, 0.22f };
-    static const float paper[3] = { 0.66f, 0.64f, 0.58f }, ink[3] = { 0.07f, 0.06f, 0.05f };
+    static const float board[3] = { 0.70f, 0.70f, 0.70f }, tape[3] = { 0.84f, 0.86f, 0.86f };
+    static const float paper[3] = { 0.95f, 0.98f, 1.0f }, ink[3] = { 0.12f, 0.12f, 0.12f };
     const float edge = fminf(fminf(u, 1.0f - u), fminf(v, 1.0f - v));
     tint(board, 0.88f + 0.14f * noise(p, 4, 90, 501) + 0.12f * (cloud(p, 4, 511) - 0.5f), rgba);
     if (fabsf(u - 0.5f) < 0.055f && (v < 0.36f || v > 0.82f))
@@ -24,7 +24,7 @@ void paint_carton(brush *p, float rgba[4])
 void paint_concrete(brush *p, float rgba[4])
 {
     const float u = p->u, v = p->v;
-    static const float grey[3] = { 0.34f, 0.33f, 0.31f }, stain[3] = { 0.20f, 0.185f, 0.165f };
+    static const float grey[3] = { 0.35f, 0.34f, 0.32f }, stain[3] = { 0.20f, 0.185f, 0.165f };
     const float edge = fminf(fminf(u, 1.0f - u), fminf(v, 1.0f - v));
     const float a = cloud(p, 5, 531), b = cloud(p, 3, 541), fine = noise(p, 120, 120, 551);
     tint(grey, 0.86f + 0.40f * (a - 0.5f) + 0.12f * (fine - 0.5f), rgba);

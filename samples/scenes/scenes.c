@@ -20,6 +20,10 @@ enum {
                     AG_FEATURE_TEXTURE_TRANSFORM | AG_FEATURE_MOVING_MATERIAL |
                     AG_FEATURE_EMISSIVE | AG_FEATURE_AREA_LIGHT | AG_FEATURE_GLOSSY |
                     AG_FEATURE_VERTEX_COLOR,
+    FACTORY_FEATURES = AG_FEATURE_SPOT_LIGHT | AG_FEATURE_POINT_LIGHT | AG_FEATURE_SEVERAL_LIGHTS |
+                       AG_FEATURE_TEXTURES | AG_FEATURE_TEXTURE_TRANSFORM |
+                       AG_FEATURE_MOVING_MATERIAL | AG_FEATURE_EMISSIVE | AG_FEATURE_AREA_LIGHT |
+                       AG_FEATURE_GLOSSY,
 };
 
 static const builtin_scene table[] = {
@@ -32,6 +36,8 @@ static const builtin_scene table[] = {
       LIVE | ROOM_FEATURES, living_room_build },
     { "maze", "a winding corridor around a statue, lit through one opening: light around corners",
       LIVE | AG_FEATURE_SPOT_LIGHT | AG_FEATURE_TEXTURES, maze_build },
+    { "factory", "a hall of boxes under many lights, with belts, robots and a crane that run",
+      LIVE | FACTORY_FEATURES, factory_build },
 };
 
 const builtin_scene *scenes_builtin(int i)

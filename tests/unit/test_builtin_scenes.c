@@ -200,7 +200,7 @@ static void every_camera_looks_at_the_scene(void **state)
 }
 
 // Of 12 x 12 rays of the first camera: how many meet something, and how many of those points some
-// light reaches.
+// light worth speaking of reaches.
 static void lit_share(const ag_scene *s, int *seen, int *lit)
 {
     const soup w = soup_of(s);
@@ -215,7 +215,7 @@ static void lit_share(const ag_scene *s, int *seen, int *lit)
         ++*seen;
         for (int i = 0; i < 3; ++i)
             at[i] = from[i] + (t - 1e-4) * direction[i];
-        *lit += scene_lit(s, &w, at);
+        *lit += scene_lit(s, &w, at, 0.25f);
     }
     free(w.corners);
 }

@@ -29,7 +29,7 @@ static int lit_points(const ag_scene *s, const soup *w, const double lo[2], cons
         const int row = i / 8;
         const double at[3] = { lo[0] + (hi[0] - lo[0]) * (i % 8 + 0.5) / 8, 0.05,
                                lo[1] + (hi[1] - lo[1]) * (row + 0.5) / 8 };
-        lit += scene_lit(s, w, at);
+        lit += scene_lit(s, w, at, 0.0f);
     }
     return lit;
 }

@@ -219,7 +219,7 @@ double soup_nearest(const soup *s, const double from[3], const double direction[
     return best;
 }
 
-bool scene_lit(const ag_scene *s, const soup *w, const double at[3])
+bool scene_lit(const ag_scene *s, const soup *w, const double at[3], float least)
 {
     for (int i = 0; i < s->light_count; ++i) {
         double distance;
@@ -227,7 +227,7 @@ bool scene_lit(const ag_scene *s, const soup *w, const double at[3])
         ag_light_eval(&s->lights[i], at, e, to_light, &distance);
         const double towards[3] = { (double) to_light[0], (double) to_light[1],
                                     (double) to_light[2] };
-        if (e[0] > 0.0f && soup_nearest(w, at, towards, distance) >= distance)
+        if (e[0] > least && soup_nearest(w, at, towards, distance) >= distance)
             return true;
     }
     return false;

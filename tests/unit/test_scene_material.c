@@ -101,7 +101,8 @@ static void a_cubic_that_swings_below_zero_is_dark(void **state)
     float values[27] = { 0 };
     for (int k = 0; k < 3; k++) {
         const float t = (float) k, slope = 3 * t * t - 6 * t + 2;
-        values[9 * k] = values[9 * k + 6] = slope;
+        float *key = values + 9 * (ptrdiff_t) k;
+        key[0] = key[6] = slope;
     }
     ag_material m = ag_default_material();
     const ag_channel_desc c = emission(values, AG_INTERPOLATE_CUBIC);
