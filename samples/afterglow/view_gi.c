@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view_priv.h"
 
+#include "ui_bridge.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,8 +105,14 @@ void view_gi_next(view *v, int side, int step)
     view_gi_want(v, side, slot);
 }
 
+// The divider comes to where it can be seen and held.
 void view_gi_split(view *v, bool split)
 {
+    float left, right;
+    const float width = (float) v->window.width, at = (float) v->gi.divider * width;
+    view_free_part(v, &left, &right);
+    if (split && (at < left + 4 * ui_unit() || at > right - 4 * ui_unit()))
+        v->gi.divider = 0.5 * (double) ((left + right) / width);
     v->gi.split = split;
     view_gi_touch(v, 2);
 }
@@ -182,6 +190,15 @@ static void apply_right(view *v)
         view_say(v, FG_LOG_DEBUG, "split %s", split ? setting_name(view_gi_setting(v, 1)) : "off");
 }
 
+static void set_title(view *v)
+{
+    char title[256];
+    const bool split = v->gi.shows_split;
+    snprintf(title, sizeof title, "%.100s: %s%s%s - afterglow", v->h->scene_name,
+             view_gi_name(v, 0), split ? " | " : "", split ? view_gi_name(v, 1) : "");
+    view_window_title(&v->window, title);
+}
+
 void view_gi_apply(view *v)
 {
     const unsigned wanted = v->gi.wanted;
@@ -195,4 +212,5 @@ void view_gi_apply(view *v)
     if (wanted & 2)
         apply_right(v);
     v->graph.stale = true;
+    set_title(v);
 }

@@ -15,24 +15,32 @@ static void name_cell(const char *name, const char *help)
     ui_table_next();
 }
 
+static void plugin_row(view *v, int side)
+{
+    int slot = v->gi.side[side];
+    const gi_plugin *p = view_gi_setting(v, side)->plugin;
+    const char *why = NULL;
+    char text[128];
+    name_cell(side ? "right" : "plugin",
+              side ? "Shift+N and Shift+P go through them" : "N and P go through them");
+    if (ui_combo(side ? "##right" : "##plugin", &slot, v->gi.names, v->gi.count))
+        view_gi_want(v, side, slot);
+    ui_tooltip(p ? p->summary : "direct light alone");
+    if (host_serves(v->h, p, &why))
+        return;
+    snprintf(text, sizeof text, "does nothing: the scene has no %s", why);
+    ui_text(UI_WARN, text);
+}
+
 static void plugin_rows(view *v)
 {
-    int slot = v->gi.side[0];
     bool split = v->gi.split;
-    const gi_plugin *p = view_gi_setting(v, 0)->plugin;
-    name_cell("plugin", "N and P go through them");
-    if (ui_combo("##plugin", &slot, v->gi.names, v->gi.count))
-        view_gi_want(v, 0, slot);
-    ui_tooltip(p ? p->summary : "direct light alone");
+    plugin_row(v, 0);
     name_cell("split", "X: another plugin on the right; drag the line between");
     if (ui_checkbox("##split", &split))
         view_gi_split(v, split);
-    if (!split)
-        return;
-    slot = v->gi.side[1];
-    name_cell("right", "Shift+N and Shift+P go through them");
-    if (ui_combo("##right", &slot, v->gi.names, v->gi.count))
-        view_gi_want(v, 1, slot);
+    if (split)
+        plugin_row(v, 1);
 }
 
 static void layer_row(view *v)
@@ -154,8 +162,7 @@ static bool two_panels(const view *v)
     return (float) v->window.width > 110 * ui_unit();
 }
 
-// What the panels leave of the window, where that is enough for a line of text.
-static void free_part(const view *v, float *left, float *right)
+void view_free_part(const view *v, float *left, float *right)
 {
     const float taken = panel_width(v) + edge();
     *left = v->panel ? taken : 0;
@@ -271,7 +278,7 @@ static void messages(const view *v)
 {
     static const ui_color colors[] = { [FG_LOG_ERROR] = UI_BAD, [FG_LOG_WARN] = UI_WARN };
     float left, right;
-    free_part(v, &left, &right);
+    view_free_part(v, &left, &right);
     const ui_window window = {
         .title = "##messages",
         .x = 0.5f * (left + right),

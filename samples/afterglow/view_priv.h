@@ -153,6 +153,8 @@ void view_shoot_window(view *v);
 
 // view_panel.c, view_param_rows.c, view_stats.c, view_graph.c
 void view_panel(view *v);
+// What the panels leave of the window, where that is enough for a line of text: from, to, pixels.
+void view_free_part(const view *v, float *left, float *right);
 void view_param_rows(view *v, int side);
 void view_stats_take(view *v, double cpu_ms); // of a frame that was submitted
 void view_stats_plot(const view *v);

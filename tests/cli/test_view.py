@@ -2,93 +2,18 @@
 """The viewer under Xvfb, driven by keys and mouse as a user has them."""
 import json
 import os
-import re
 import shutil
 import struct
-import subprocess
 import time
 import zlib
 
-from harness import BINARY, fails, main, succeeds
+from harness import fails, main, succeeds
+from window import Screen, Viewer
 
 FAULTY, LAYERED = os.environ['FAULTY_PLUGINS'], os.environ['LAYERED_PLUGIN']
 BAD = (255, 106, 92)   # letters of a fault: ui_widgets_bridge.cpp
 GRAB = (163, 106, 36)  # what a slider is held by: ui_bridge.cpp
 PANEL = 390            # width of the panel at a scale of 1, pixels
-
-
-class Screen:
-    """An X server of its own, on a free display."""
-
-    def __enter__(self):
-        read, write = os.pipe()
-        self.server = subprocess.Popen(
-            ['Xvfb', '-displayfd', str(write), '-screen', '0', '900x700x24', '-dpi', '96', '-nolisten', 'tcp'],
-            pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        os.close(write)
-        with os.fdopen(read) as f:
-            number = f.readline().strip()
-        assert number, 'Xvfb does not start'
-        self.env = {'DISPLAY': ':' + number}
-        return self
-
-    def __exit__(self, *_):
-        self.server.terminate()
-        self.server.wait()
-
-
-class Viewer:
-    def __init__(self, screen, folder, *args):
-        self.env = {**os.environ, **screen.env}
-        self.folder, self.path = folder, folder + '/stderr'
-        self.file = open(self.path, 'wb')
-        self.process = subprocess.Popen([BINARY, 'view', '--verbose', '-o', folder, *map(str, args)],
-                                        env=self.env, stderr=self.file, stdin=subprocess.DEVNULL)
-        self.seen = 0
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        if self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()
-        self.file.close()
-
-    def text(self):
-        with open(self.path, errors='replace') as f:
-            return f.read()
-
-    def wait(self, pattern, seconds=60):
-        """The first new match; what stands before it counts as seen."""
-        end = time.monotonic() + seconds
-        while True:
-            match = re.compile(pattern).search(self.text(), self.seen)
-            if match:
-                self.seen = match.end()
-                return match
-            assert self.process.poll() is None and time.monotonic() < end, (pattern, self.text())
-            time.sleep(0.02)
-
-    def do(self, *words):
-        subprocess.run(['xdotool', *map(str, words)], env=self.env, check=True, timeout=30)
-
-    def key(self, key, pattern):
-        self.do('key', key)
-        return self.wait(pattern)
-
-    def shot(self, key='F6'):
-        return self.key(key, r'wrote (.*\.png)\n').group(1)
-
-    def saved(self):
-        with open(self.key('F7', r'saved (.*)\n').group(1)) as f:
-            return json.load(f)
-
-    def quits(self):
-        self.do('key', 'ctrl+q')
-        assert self.process.wait(60) == 0, self.text()
-        assert 'afterglow: error' not in self.text(), self.text()
-        assert ' 0 OpenGL errors' in self.text(), self.text()
 
 
 def read_png(path):
@@ -253,9 +178,11 @@ def it_is_driven_by_keys_and_mouse(folder):
         # Split, layers, exposure, mouse: then the set is loaded again.
         viewer.key('x', 'split ')
         split = shot_of(viewer, 600, 560)
-        viewer.do('mousemove', 300, 540, 'mousedown', 1)
+        divider = viewer.saved()['divider']
+        assert PANEL / 600 < divider < 1 # beside the panel, not below it
+        viewer.do('mousemove', int(divider * 600), 100, 'mousedown', 1)
         time.sleep(0.2)
-        viewer.do('mousemove', 450, 540, 'mouseup', 1)
+        viewer.do('mousemove', 450, 100, 'mouseup', 1)
         viewer.key('shift+n', 'split hisr\n')
         viewer.key('shift+n', 'split iir\n')
         viewer.key('l', 'layer radiance\n')
@@ -268,6 +195,7 @@ def it_is_driven_by_keys_and_mouse(folder):
         moved = shot_of(viewer, 600, 560)
         assert crop(moved, 400, 0, 600, 500) != crop(split, 400, 0, 600, 500)
         other = viewer.saved()
+        assert abs(other['divider'] - 450 / 600) < 0.01, other['divider'] # where the mouse let it go
         assert other['second']['plugin'] == 'iir' and other['exposure'] > 1.2 and 'eye' in other['camera']
         with open(folder + '/view.json', 'w') as f:
             json.dump(after, f)
