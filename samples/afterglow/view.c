@@ -136,6 +136,8 @@ static fg_status present(view *v, const ag_camera *camera)
         .divider = split ? v->gi.divider : 1,
         .data = host_layer_kind(v->shown) == IMAGE_DATA,
     };
+    if (!desc.left.texture && v->shown >= LAYER_PLUGIN)
+        view_layer_set(v, LAYER_FINAL); // its plugin was dropped: from the next frame on
     if (split)
         desc.right = (view_picture){ renderer_second_texture(v->r, v->gi.second),
                                      v->gi.second < LAYER_PLUGIN };

@@ -80,7 +80,14 @@ bool view_gi_load(view *v, int slot)
 void view_gi_touch(view *v, unsigned sides)
 {
     v->gi.wanted |= sides;
-    v->gi.said = false;
+    v->gi.said = v->gi.quiet = false;
+}
+
+void view_gi_nudge(view *v, unsigned sides)
+{
+    if (!v->gi.wanted)
+        v->gi.said = v->gi.quiet = true;
+    v->gi.wanted |= sides;
 }
 
 void view_gi_want(view *v, int side, int slot)
@@ -167,7 +174,8 @@ static fg_status set_second(view *v)
 fg_status view_gi_layers(view *v)
 {
     // A plugin's layer comes with the plugin.
-    v->shown = v->gi.wanted && v->layer >= LAYER_PLUGIN ? LAYER_FINAL : v->layer;
+    const bool there = v->layer < LAYER_PLUGIN || v->gi.applied == v->gi.side[0];
+    v->shown = there ? v->layer : LAYER_FINAL;
     const fg_status status = renderer_set_layers(v->r, 1u << v->shown);
     if (status != FG_OK || !v->gi.shows_split || second_layer(v) == v->gi.second)
         return status;
@@ -177,6 +185,7 @@ fg_status view_gi_layers(view *v)
 static void apply_left(view *v)
 {
     const setting *s = view_gi_setting(v, 0);
+    v->gi.applied = v->gi.side[0];
     if (renderer_set_plugin(v->r, s->plugin, s->values) == FG_OK)
         view_say(v, FG_LOG_DEBUG, "plugin %s", setting_name(s));
 }
@@ -203,7 +212,7 @@ void view_gi_apply(view *v)
 {
     const unsigned wanted = v->gi.wanted;
     v->gi.wanted = 0;
-    v->gi.said = false;
+    v->gi.said = v->gi.quiet = false;
     view_gi_load(v, v->gi.side[0]);
     if (v->gi.split)
         view_gi_load(v, v->gi.side[1]);

@@ -286,7 +286,8 @@ static void messages(const view *v)
         .flags = UI_FITTED,
     };
     char text[256];
-    int count = v->gi.wanted != 0;
+    const bool prepares = v->gi.wanted && !v->gi.quiet;
+    int count = prepares;
     for (int i = 0; i < v->messages.count; ++i)
         count += is_shown(v, &v->messages.list[i]);
     if (!count)
@@ -298,7 +299,7 @@ static void messages(const view *v)
             ui_text_wrapped(m->level <= FG_LOG_WARN ? colors[m->level] : UI_PLAIN, m->text,
                             right - left - 2 * ui_unit());
     }
-    if (open && v->gi.wanted) {
+    if (open && prepares) {
         notice(v, text, sizeof text);
         ui_text(UI_ACCENT, text);
     }

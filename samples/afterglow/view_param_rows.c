@@ -93,6 +93,19 @@ static const char *explain(const gi_param *row, char *text, size_t size)
     return text;
 }
 
+static bool reset(const gi_param *row, gi_value *value)
+{
+    if (is_default(row, value))
+        return false;
+    const bool wanted = ui_button("x");
+    ui_tooltip("back to the default");
+    if (wanted && row->type == GI_FLOAT)
+        value->f = row->def;
+    else if (wanted)
+        value->i = (int64_t) row->def;
+    return wanted;
+}
+
 static bool param_row(const gi_param *row, gi_value *value)
 {
     char text[512];
@@ -101,20 +114,21 @@ static bool param_row(const gi_param *row, gi_value *value)
     ui_text(is_default(row, value) ? UI_PLAIN : UI_ACCENT, row->name);
     ui_tooltip(explain(row, text, sizeof text));
     ui_table_next();
-    bool changed = widget(row, value);
+    const bool changed = widget(row, value);
     ui_tooltip(text);
     ui_table_next();
-    if (!is_default(row, value) && ui_button("x")) {
-        if (row->type == GI_FLOAT)
-            value->f = row->def;
-        else
-            value->i = (int64_t) row->def;
-        changed = true;
-    } else if (!is_default(row, value)) {
-        ui_tooltip("back to the default");
-    }
+    const bool back = reset(row, value);
     ui_pop();
-    return changed;
+    return changed || back;
+}
+
+// A number is soon taken; another choice may mean other shaders.
+static void changed_row(view *v, int side, const gi_param *row)
+{
+    if (row->type == GI_INT || row->type == GI_FLOAT)
+        view_gi_nudge(v, 1u << side);
+    else
+        view_gi_touch(v, 1u << side);
 }
 
 void view_param_rows(view *v, int side)
@@ -131,18 +145,16 @@ void view_param_rows(view *v, int side)
     if (!ui_header(title, true))
         return;
     const float em = ui_unit(), widths[] = { 8 * em, 0, 1.5f * em };
-    bool changed = false;
     ui_push(title + strlen(title) - 1);
     if (ui_table_begin("params", widths, FG_COUNT(widths))) {
         for (int i = 0; i < gi_params_count(s->plugin); ++i)
-            changed |= param_row(&s->plugin->params[i], &s->values[i]);
+            if (param_row(&s->plugin->params[i], &s->values[i]))
+                changed_row(v, side, &s->plugin->params[i]);
         ui_table_end();
     }
     if (ui_button("All to defaults")) {
         gi_params_default(s->plugin, s->values);
-        changed = true;
+        view_gi_touch(v, 1u << side);
     }
     ui_pop();
-    if (changed)
-        view_gi_touch(v, 1u << side);
 }

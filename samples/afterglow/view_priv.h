@@ -33,6 +33,8 @@ typedef struct view_gi {
     double divider;         // of the width
     unsigned wanted;        // a bit for each side of which the renderer has something else
     bool said;              // the window says what it prepares
+    bool quiet;             // or need not: it takes no time
+    int applied;            // slot of the left side that the renderer was given
     bool ready;             // a frame with what was asked for at first was shown
     bool shows_split;       // the renderer's
     renderer_layer second;  // layer of the second side that the renderer gives
@@ -129,6 +131,7 @@ void view_gi_next(view *v, int side, int step);
 void view_gi_split(view *v, bool split);
 // Values, or what else a plugin is to begin anew with, changed; `sides`: a bit each.
 void view_gi_touch(view *v, unsigned sides);
+void view_gi_nudge(view *v, unsigned sides); // by as little as a slider moves: nothing is said
 int view_gi_find(const view *v, const char *name); // -1: there is none
 bool view_gi_load(view *v, int slot);              // false: refused; the log has said why
 // Between two frames: what is wanted becomes what is shown. Failures are messages.
