@@ -37,8 +37,8 @@ size_t scene_triangles(const ag_scene *s); // as shown, instances counted
 soup soup_of(const ag_scene *s);
 // Distance to the nearest triangle beyond 1e-6, in units of |direction|, or `limit`.
 double soup_nearest(const soup *s, const double from[3], const double direction[3], double limit);
-// Whether some light of the scene reaches a point, which is not on a surface, with more than `least`
-// W/m^2 of red.
+// Whether some light of the scene reaches a point, which is not on a surface, with more than
+// `least` W/m^2 of red.
 bool scene_lit(const ag_scene *s, const soup *w, const double at[3], float least);
 
 #endif // TEST_MESH_H
