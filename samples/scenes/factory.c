@@ -5,7 +5,11 @@
 
 // Base colours multiply the texture, linear.
 static const kit_look looks[FACTORY_MATERIALS] = {
-    [FACTORY_FLOOR] = { "floor", PATTERN_CONCRETE, { 1, 1, 1 }, .roughness = 0.45f, .size = 512 },
+    [FACTORY_FLOOR] = { "floor",
+                        PATTERN_CONCRETE,
+                        { 0.74f, 0.74f, 0.76f },
+                        .roughness = 0.45f,
+                        .size = 512 },
     [FACTORY_SHEET] = { "sheet", PATTERN_SHEET, { 1.0f, 1.0f, 0.98f }, .roughness = 0.6f },
     [FACTORY_CONCRETE] = { "concrete", PATTERN_CONCRETE, { 0.9f, 0.9f, 0.9f }, .size = 512 },
     [FACTORY_ROOF] = { "roof", PATTERN_SHEET, { 0.85f, 0.85f, 0.85f } },

@@ -9,7 +9,7 @@
 
 static const float tau = 6.28318531f;
 
-// Bells under the roof, in every second bay, now on one side, now on the other.
+// Two rows of bells under the roof, in every second bay.
 static void add_roof_lamps(factory *f)
 {
     static const float bell[][2] = {
@@ -25,10 +25,10 @@ static void add_roof_lamps(factory *f)
     const int cover = factory_part(f, "bell", &s, FACTORY_FRAME);
     shape_lathe(&s, &(shape_lathe_desc){ PROFILE(glass), 24, 0, 0 });
     const int disc = factory_part(f, "glass", &s, FACTORY_LAMP);
-    for (int i = 0; i < 4; ++i) {
-        const double x = 2.0 * (double) hall_bay * (i - 1.5);
+    for (int i = 0; i < 6; ++i) {
+        const double x = 2.0 * (double) hall_bay * (i % 3 - 1);
         const int node =
-            kit_show(&f->k, "roof lamp", cover, -1, (place){ x, 8.25, i % 2 ? 3.6 : -3.6, 0 });
+            kit_show(&f->k, "roof lamp", cover, -1, (place){ x, 8.25, i < 3 ? -4.2 : 4.2, 0 });
         kit_show(&f->k, "glass", disc, node, (place){ 0 });
         const ag_node_desc aim = { .name = "roof lamp",
                                    .parent = node,
@@ -36,7 +36,7 @@ static void add_roof_lamps(factory *f)
                                                  0.70710678118654752 } };
         ag_light spot = { .name = "roof lamp 0",
                           .kind = AG_LIGHT_SPOT,
-                          .intensity = { 350.0f, 338.0f, 310.0f }, // W/sr
+                          .intensity = { 360.0f, 347.0f, 318.0f }, // W/sr
                           .cos_inner = cosf(0.45f),
                           .cos_outer = cosf(1.045f) };
         spot.name[10] = (char) ('1' + i);

@@ -163,7 +163,7 @@ static float chain_length(void)
 static float carrier_way(const void *user, float t)
 {
     const int number = *(const int *) user;
-    return chain_length() * (t + (float) number / CARRIERS);
+    return chain_length() * (t + ((float) number + 0.5f) / CARRIERS);
 }
 
 static void carrier_place(const void *user, float t, float out[4])
