@@ -129,11 +129,85 @@ static fg_status check_lost(gl_device *d)
     return d->lost ? FG_ERR_DEVICE : FG_OK;
 }
 
+// What passes find and what a host finds after a frame alike: as a new context has it.
+static void set_common_state(void)
+{
+    static const GLenum off[] = {
+        GL_BLEND,
+        GL_CULL_FACE,
+        GL_SCISSOR_TEST,
+        GL_STENCIL_TEST,
+        GL_DEPTH_CLAMP,
+        GL_POLYGON_OFFSET_FILL,
+        GL_COLOR_LOGIC_OP,
+        GL_RASTERIZER_DISCARD,
+        GL_SAMPLE_ALPHA_TO_COVERAGE,
+        GL_SAMPLE_COVERAGE,
+        GL_SAMPLE_MASK,
+        GL_PRIMITIVE_RESTART,
+        GL_SAMPLE_SHADING,
+        GL_PROGRAM_POINT_SIZE,
+        GL_PRIMITIVE_RESTART_FIXED_INDEX,
+        GL_LINE_SMOOTH,
+        GL_POLYGON_SMOOTH,
+        GL_SAMPLE_ALPHA_TO_ONE,
+        // These two for filled triangles, too, where llvmpipe is concerned.
+        GL_POLYGON_OFFSET_LINE,
+        GL_POLYGON_OFFSET_POINT,
+    };
+    for (int i = 0; i < FG_COUNT(off); ++i)
+        glDisable(off[i]);
+    for (GLenum i = 0; i < GL_CLIP_DISTANCES; ++i)
+        glDisable(GL_CLIP_DISTANCE0 + i);
+    glEnable(GL_MULTISAMPLE);
+    glDepthRange(0.0, 1.0);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glFrontFace(GL_CCW);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
+    glStencilMask(~0u);
+}
+
+// The host goes on with what a new context has, wherever passes may have set something else.
+static void leave_state(void)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glBindVertexArray(0);
+    glUseProgram(0);
+    set_common_state();
+    glEnable(GL_DITHER);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    glStencilFunc(GL_ALWAYS, 0, ~0u);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    glBlendFunc(GL_ONE, GL_ZERO);
+    glBlendEquation(GL_FUNC_ADD);
+    glPointSize(1.0f);
+}
+
+// Uploads and clears take their texels as they lie.
+static void set_unpacking(void)
+{
+    static const GLenum zero[] = {
+        GL_UNPACK_ROW_LENGTH,   GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES,
+        GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST,
+    };
+    for (int i = 0; i < FG_COUNT(zero); ++i)
+        glPixelStorei(zero[i], 0);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+}
+
 static fg_status frame_begin(fg_device *dev, uint64_t frame, int timers)
 {
     gl_device *d = (gl_device *) dev;
     if (d->lost)
         return FG_ERR_DEVICE;
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    set_unpacking();
     return gl_timers_begin_frame(d, frame, timers);
 }
 
@@ -142,9 +216,7 @@ static fg_status frame_end(fg_device *dev)
     gl_device *d = (gl_device *) dev;
     close_group(d); // of a pass that failed
     gl_timers_end_frame(d);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glBindVertexArray(0);
-    glUseProgram(0);
+    leave_state();
     if (d->terminates)
         glFrameTerminatorGREMEDY();
     if (d->debug)
@@ -183,24 +255,12 @@ static void barrier(fg_device *dev, unsigned bits)
 // The state that fg/gl.h promises to callbacks.
 static void set_raster_state(const fg_pass_begin *begin, bool attachments)
 {
-    static const GLenum off[] = {
-        GL_BLEND,           GL_CULL_FACE,           GL_SCISSOR_TEST,
-        GL_STENCIL_TEST,    GL_DEPTH_CLAMP,         GL_POLYGON_OFFSET_FILL,
-        GL_COLOR_LOGIC_OP,  GL_RASTERIZER_DISCARD,  GL_SAMPLE_ALPHA_TO_COVERAGE,
-        GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK,         GL_PRIMITIVE_RESTART,
-        GL_SAMPLE_SHADING,  GL_PROGRAM_POINT_SIZE,  GL_PRIMITIVE_RESTART_FIXED_INDEX,
-        GL_DITHER,          GL_SAMPLE_ALPHA_TO_ONE,
-    };
-    for (int i = 0; i < FG_COUNT(off); ++i)
-        glDisable(off[i]);
+    set_common_state();
+    glDisable(GL_DITHER);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
     glDepthMask(begin->depth.object && begin->depth_read_only ? GL_FALSE : GL_TRUE);
-    glDepthRange(0.0, 1.0);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glFrontFace(GL_CCW);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     if (attachments) {
         glEnable(GL_FRAMEBUFFER_SRGB);
         glViewport(0, 0, begin->width, begin->height);
@@ -344,8 +404,6 @@ static void begin_device(gl_device *d)
     gl_read_limits(d);
     glCreateVertexArrays(1, &d->vao);
     create_samplers(d);
-    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
 fg_status fg_gl_device_create(const fg_gl_device_desc *desc, fg_device **out)

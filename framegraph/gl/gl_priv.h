@@ -72,7 +72,7 @@ typedef struct gl_timers {
 
 typedef struct gl_programs gl_programs; // program_priv.h
 
-enum { GL_FILTER_COUNT = FG_GL_SHADOW + 1 };
+enum { GL_FILTER_COUNT = FG_GL_SHADOW + 1, GL_CLIP_DISTANCES = 8 };
 
 typedef struct gl_device {
     fg_device base; // first: a fg_device * is a gl_device *

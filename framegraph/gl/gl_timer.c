@@ -108,6 +108,7 @@ void gl_timers_collect(gl_device *d)
         GLuint there = 0;
         if (!f->last || place == t->current)
             continue;
+        glBindBuffer(GL_QUERY_BUFFER, 0); // the host's would take what is read here
         glGetQueryObjectuiv(f->last, GL_QUERY_RESULT_AVAILABLE, &there);
         if (!there)
             return; // what came later is not there either

@@ -84,6 +84,36 @@ static uint8_t *resample(const ag_texture *t, int width, int height)
     return out;
 }
 
+// How texels are read from memory is the host's to set. Here they lie one after the other.
+enum { UNPACK_NUMBERS = 8 };
+static const GLenum unpack[UNPACK_NUMBERS] = {
+    GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,   GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SKIP_PIXELS,
+    GL_UNPACK_SKIP_IMAGES, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST,
+};
+
+typedef struct unpack_state {
+    GLint numbers[UNPACK_NUMBERS], buffer;
+} unpack_state;
+
+static unpack_state unpack_begin(void)
+{
+    unpack_state host;
+    glGetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &host.buffer);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    for (int i = 0; i < UNPACK_NUMBERS; i++) {
+        glGetIntegerv(unpack[i], &host.numbers[i]);
+        glPixelStorei(unpack[i], unpack[i] == GL_UNPACK_ALIGNMENT ? 4 : 0);
+    }
+    return host;
+}
+
+static void unpack_end(const unpack_state *host)
+{
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint) host->buffer);
+    for (int i = 0; i < UNPACK_NUMBERS; i++)
+        glPixelStorei(unpack[i], host->numbers[i]);
+}
+
 static bool upload(const ag_texture *t, const texture_bin *bin, int layer)
 {
     const bool exact = t->width == bin->width && t->height == bin->height;
@@ -156,12 +186,16 @@ fg_status texture_set_init(const fg_log *log, const ag_scene *scene, texture_set
     const fg_status status = create_bins(log, scene->name, set);
     if (status)
         return status;
-    for (int t = 0; t < scene->texture_count; t++) {
-        if (!upload(&scene->textures[t], &set->bins[set->places[t][0]], set->places[t][1])) {
-            fg_logf(log, FG_LOG_ERROR, "%s: out of memory for texture %s", scene->name,
-                    scene->textures[t].name);
-            return FG_ERR_MEMORY;
-        }
+    const unpack_state host = unpack_begin();
+    int done = 0;
+    while (done < scene->texture_count &&
+           upload(&scene->textures[done], &set->bins[set->places[done][0]], set->places[done][1]))
+        done++;
+    unpack_end(&host);
+    if (done < scene->texture_count) {
+        fg_logf(log, FG_LOG_ERROR, "%s: out of memory for texture %s", scene->name,
+                scene->textures[done].name);
+        return FG_ERR_MEMORY;
     }
     for (int b = 0; b < set->bin_count; b++)
         glGenerateTextureMipmap(set->bins[b].texture);

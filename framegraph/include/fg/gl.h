@@ -61,21 +61,33 @@ typedef struct fg_gl_device_desc {
 } fg_gl_device_desc;
 
 // For the context that is current. If that is a debug context, driver messages go
-// to the log. Sets glClipControl(LOWER_LEFT, ZERO_TO_ONE) and seamless cube maps.
+// to the log; a callback that the host has set is put back when the device goes.
 //
 // What a callback finds, whatever ran before it:
 //   program 0; a vertex array without attributes bound; a debug group named as the pass;
 //   in raster passes besides: the framebuffer of what it writes, with a viewport over it;
 //   depth test on, GREATER_OR_EQUAL (reversed: 1 is near, 0 far), depth writes on unless
-//   depth is only read; depth range [0, 1]; the clip control above; no culling, front faces
-//   counter-clockwise; blending, scissor, stencil, polygon offset, depth clamp, logic operation,
-//   primitive restart, sample masks and dithering off; polygons filled; all colour channels
-//   written; GL_FRAMEBUFFER_SRGB on.
+//   depth is only read; depth range [0, 1]; glClipControl(LOWER_LEFT, ZERO_TO_ONE); no culling,
+//   front faces counter-clockwise; blending, scissor, stencil, polygon offset, depth clamp, logic
+//   operation, primitive restart, sample masks, clip distances, smoothing and dithering off;
+//   polygons filled; all colour channels and all bits of the stencil written; flat attributes from
+//   the last vertex; GL_FRAMEBUFFER_SRGB on.
 //   A raster pass that writes no texture gets framebuffer 0, GL_FRAMEBUFFER_SRGB off, and
 //   the viewport as it was: it shows something, and sets these itself.
-// Bindings of textures, samplers, images, buffers and pixel transfer are not reset: a pass
-// binds all that its shaders name. After a frame framebuffer, program and vertex array are 0;
-// a host that draws on sets the rest of its state anew.
+// Cube maps are seamless, and pixels are unpacked as in a new context, from memory. Bindings of
+// textures, samplers, images and buffers are not reset: a pass binds all that its shaders name.
+//
+// What a host finds after fg_graph_run(), whatever it had set before:
+//   as in a new context: all that is named above, down to the depth test (off), clip control and
+//   GL_FRAMEBUFFER_SRGB (off), stencil and blend functions, point size, pixel unpacking;
+//   framebuffer, program and vertex array are 0;
+//   left as the last pass had it: the viewport; what is bound to the units and binding points of
+//   textures, samplers, images, shader storage and uniform buffers; the buffers bound for indirect
+//   draws and dispatches and for query results; GL_TEXTURE_CUBE_MAP_SEAMLESS is on.
+// All else is neither asked for nor touched: scissor box, clear values, blend colour, line width,
+// pixel packing, the active unit, renderbuffers, other buffers, hints. Nor is anything changed by
+// the calls around a frame, which create, update and declare, but by ag_*_destroy() and the like as
+// OpenGL has it: what is deleted is unbound.
 //
 // Clears: an sRGB texture takes linear values; a buffer is filled with `value`[0] as 32 bits,
 // 3D textures are cleared in all slices. Poison in depth formats is 0xcdcd / 0xffff, about
