@@ -5,8 +5,6 @@
 
 #define PROFILE(array) (const float(*)[2]) array, FG_COUNT(array)
 
-static const float pi = 3.14159265f;
-
 // A turned thing of 20 segments, 40 where it is wider than a metre.
 static int add_turned(atrium *a, const char *name, atrium_material material,
                       const float (*profile)[2], int count)
@@ -48,55 +46,6 @@ static void add_fountain(atrium *a)
         kit_show(&a->k, "fountain", parts[i], root, (place){ 0 });
 }
 
-// A small deterministic generator for where leaves go.
-static float draw(uint32_t *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (float) (*state >> 8) * (1.0f / 16777216.0f);
-}
-
-// One leaf card of side `size` around `centre`, facing `normal` more or less.
-static void add_card(shape *s, const float centre[3], const float normal[3], float size,
-                     uint32_t *state)
-{
-    float n[3], across[3], up[3], corners[4][3];
-    for (int i = 0; i < 3; ++i)
-        n[i] = normal[i] + 0.9f * (draw(state) - 0.5f);
-    const float turn = 2.0f * pi * draw(state), half = 0.5f * size * (0.7f + 0.6f * draw(state));
-    const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    const float flat = hypotf(n[0], n[2]);
-    const float right[3] = { n[2] / flat, 0, -n[0] / flat };
-    const float upright[3] = { -n[1] * n[0] / (flat * length), flat / length,
-                               -n[1] * n[2] / (flat * length) };
-    for (int i = 0; i < 3; ++i) {
-        across[i] = cosf(turn) * right[i] + sinf(turn) * upright[i];
-        up[i] = cosf(turn) * upright[i] - sinf(turn) * right[i];
-    }
-    for (int k = 0; k < 4; ++k) {
-        const float x = k == 1 || k == 2 ? half : -half, y = k >= 2 ? half : -half;
-        for (int i = 0; i < 3; ++i)
-            corners[k][i] = centre[i] + x * across[i] + y * up[i];
-    }
-    s->tiling = 0.5f / half; // one picture a card
-    shape_quad(s, (const float(*)[3]) corners);
-}
-
-// Leaves all over an ellipsoid: a bush or the crown of a small tree.
-static void add_crown(shape *s, const float centre[3], const float radius[3], int count,
-                      uint32_t seed)
-{
-    for (int i = 0; i < count; ++i) {
-        const float y = 1.0f - 2.0f * ((float) i + 0.5f) / (float) count;
-        const float angle = 2.39996323f * (float) i; // the golden angle spreads them evenly
-        const float flat = sqrtf(1.0f - y * y), deep = 0.65f + 0.35f * draw(&seed);
-        const float n[3] = { flat * cosf(angle), y, flat * sinf(angle) };
-        const float at[3] = { centre[0] + deep * radius[0] * n[0],
-                              centre[1] + deep * radius[1] * n[1],
-                              centre[2] + deep * radius[2] * n[2] };
-        add_card(s, at, n, 0.34f, &seed);
-    }
-}
-
 // Orange trees and bushes in clay pots.
 static void add_plants(atrium *a)
 {
@@ -116,8 +65,10 @@ static void add_plants(atrium *a)
     const int clay = add_turned(a, "pot", ATRIUM_CLAY, PROFILE(pot));
     shape s = { 0 }, crown = { 0 }, bush = { 0 };
     shape_tube(&s, &stem);
-    add_crown(&crown, (float[3]){ 0, 2.25f, 0 }, (float[3]){ 0.75f, 0.8f, 0.75f }, 260, 7u);
-    add_crown(&bush, (float[3]){ 0, 0.75f, 0 }, (float[3]){ 0.42f, 0.38f, 0.42f }, 110, 8u);
+    shape_crown(&crown,
+                &(shape_crown_desc){ { 0, 2.25f, 0 }, { 0.75f, 0.8f, 0.75f }, 0.34f, 260, 7u });
+    shape_crown(&bush,
+                &(shape_crown_desc){ { 0, 0.75f, 0 }, { 0.42f, 0.38f, 0.42f }, 0.34f, 110, 8u });
     const int wood = kit_part(&a->k, "trunk", &s, a->material[ATRIUM_WOOD]);
     const int leaves = kit_part(&a->k, "crown", &crown, a->material[ATRIUM_LEAVES]);
     const int low = kit_part(&a->k, "bush", &bush, a->material[ATRIUM_LEAVES]);
@@ -141,7 +92,7 @@ static void add_ivy(atrium *a)
     shape s = { 0 };
     for (int i = 0; i < 620; ++i) {
         // Thick along the foot and the string course, thinner away from the pier.
-        const float climb = draw(&state), spread = draw(&state) * draw(&state);
+        const float climb = shape_draw(&state), spread = shape_draw(&state) * shape_draw(&state);
         const float y = 0.2f + 6.2f * climb;
         const float reach = 0.5f + 3.2f * expf(-2.5f * (climb - 0.62f) * (climb - 0.62f) * 9.0f);
         const float x = -8.75f + reach * spread;
@@ -151,7 +102,7 @@ static void add_ivy(atrium *a)
             continue;
         const float out = y > 4.2f && y < 4.6f ? -0.44f : y > 4.5f ? -0.22f : -0.32f;
         const float at[3] = { x, y, x < -8.5f ? out - 0.12f : out };
-        add_card(&s, at, (float[3]){ 0, 0.15f, -1 }, 0.26f, &state);
+        shape_card(&s, at, (float[3]){ 0, 0.15f, -1 }, 0.26f, &state);
     }
     const int part = kit_part(&a->k, "ivy", &s, a->material[ATRIUM_LEAVES]);
     kit_show(&a->k, "ivy", part, a->side[0], (place){ 0, 0, atrium_distance(0), 0 });

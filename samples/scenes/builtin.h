@@ -11,6 +11,7 @@ FG_NODISCARD fg_status cornell_build(const fg_log *log, ag_scene **out);
 FG_NODISCARD fg_status atrium_build(const fg_log *log, ag_scene **out);
 FG_NODISCARD fg_status living_room_build(const fg_log *log, ag_scene **out);
 FG_NODISCARD fg_status maze_build(const fg_log *log, ag_scene **out);
+FG_NODISCARD fg_status garden_build(const fg_log *log, ag_scene **out);
 FG_NODISCARD fg_status factory_build(const fg_log *log, ag_scene **out);
 
 FG_END

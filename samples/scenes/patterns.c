@@ -177,6 +177,11 @@ static void (*const painters[PATTERN_COUNT])(brush *p, float rgba[4]) = {
     [PATTERN_SHEET] = paint_sheet,
     [PATTERN_HAZARD] = paint_hazard,
     [PATTERN_FRESCO] = paint_fresco,
+    [PATTERN_LAWN] = paint_lawn,
+    [PATTERN_BARK] = paint_bark,
+    [PATTERN_GRASS] = paint_grass,
+    [PATTERN_FERN] = paint_fern,
+    [PATTERN_FLOWER] = paint_flower,
 };
 
 enum { ENCODE_STEPS = 4096 };
@@ -241,5 +246,6 @@ void pattern_paint(pattern what, int size, uint8_t *rgba)
 
 bool pattern_is_masked(pattern what)
 {
-    return what == PATTERN_LEAVES;
+    return what == PATTERN_LEAVES || what == PATTERN_GRASS || what == PATTERN_FERN ||
+           what == PATTERN_FLOWER;
 }

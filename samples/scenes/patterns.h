@@ -30,6 +30,11 @@ typedef enum pattern {
     PATTERN_SHEET,      // corrugated steel, ribs along v, 1 m
     PATTERN_HAZARD,     // yellow and black, 0.5 m
     PATTERN_FRESCO,     // painted plaster, near white: colour from the material, 3 m
+    PATTERN_LAWN,       // turf seen from above, 2 m
+    PATTERN_BARK,       // grooves along v, 1 m
+    PATTERN_GRASS,      // blades from the lower edge up, alpha between them, one card
+    PATTERN_FERN,       // a frond from the lower edge up, likewise
+    PATTERN_FLOWER,     // petals, near white, around a yellow middle, likewise
     PATTERN_COUNT,
 } pattern;
 

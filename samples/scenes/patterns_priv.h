@@ -152,5 +152,10 @@ void paint_sheet(brush *p, float rgba[4]);
 void paint_hazard(brush *p, float rgba[4]);
 // patterns_garden.c
 void paint_fresco(brush *p, float rgba[4]);
+void paint_lawn(brush *p, float rgba[4]);
+void paint_bark(brush *p, float rgba[4]);
+void paint_grass(brush *p, float rgba[4]);
+void paint_fern(brush *p, float rgba[4]);
+void paint_flower(brush *p, float rgba[4]);
 
 #endif // PATTERNS_PRIV_H

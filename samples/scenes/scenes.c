@@ -24,6 +24,8 @@ enum {
                        AG_FEATURE_TEXTURES | AG_FEATURE_TEXTURE_TRANSFORM |
                        AG_FEATURE_MOVING_MATERIAL | AG_FEATURE_EMISSIVE | AG_FEATURE_AREA_LIGHT |
                        AG_FEATURE_GLOSSY,
+    GARDEN_FEATURES = AG_FEATURE_DIRECTIONAL_LIGHT | AG_FEATURE_SPOT_LIGHT |
+                      AG_FEATURE_SEVERAL_LIGHTS | AG_FEATURE_TEXTURES | AG_FEATURE_ALPHA_MASK,
 };
 
 static const builtin_scene table[] = {
@@ -36,6 +38,8 @@ static const builtin_scene table[] = {
       LIVE | ROOM_FEATURES, living_room_build },
     { "maze", "a winding corridor around a statue, lit through one opening: light around corners",
       LIVE | AG_FEATURE_SPOT_LIGHT | AG_FEATURE_TEXTURES, maze_build },
+    { "garden", "a walled garden of masked leaves in the sun: trees, hedges, a pond, a pavilion",
+      LIVE | GARDEN_FEATURES, garden_build },
     { "factory", "a hall of boxes under many lights, with belts, robots and a crane that run",
       LIVE | FACTORY_FEATURES, factory_build },
 };

@@ -130,6 +130,37 @@ typedef struct shape_vault_desc {
 } shape_vault_desc;
 void shape_vault(shape *s, const shape_vault_desc *desc);
 
+// ---- plants (shapes_plants.c) -----------------------------------------------------
+//
+// Cards are quads that show one whole picture, u to the right, v downwards.
+
+// A small deterministic generator: [0, 1).
+float shape_draw(uint32_t *state);
+// One card of side `size`, more or less, around `centre`, facing `normal` more or less.
+void shape_card(shape *s, const float centre[3], const float normal[3], float size,
+                uint32_t *state);
+
+// Cards all over an ellipsoid: a bush, or the crown of a small tree.
+typedef struct shape_crown_desc {
+    float centre[3], radius[3];
+    float size; // of a card
+    int count;
+    uint32_t seed;
+} shape_crown_desc;
+void shape_crown(shape *s, const shape_crown_desc *desc);
+
+// A strip that rises from `foot` in the direction `yaw` and bends over: a frond, or with one piece
+// and little reach a blade. Its normals lean up, so that it is as light as the ground around.
+typedef struct shape_frond_desc {
+    float foot[3];
+    float yaw;           // radians around +Y: 0 bends over to +Z
+    float width, length; // metres
+    float rise;          // radians above the horizon at the foot
+    float droop;         // how many radians it has bent down by the tip
+    int pieces;          // >= 1
+} shape_frond_desc;
+void shape_frond(shape *s, const shape_frond_desc *desc);
+
 // ---- fields (shapes_field.c) -----------------------------------------------------
 
 // The surface of a solid given by a field, negative inside: one vertex in every cell of a grid that

@@ -297,7 +297,7 @@ static void every_scene_has_a_camera_a_light_and_parts_that_move(void **state)
     for_all(check_moves);
 }
 
-// The path camera at `count` even times of its round, which ends where it began.
+// The path camera at `count` even times of its round, which is as long as the whole animation.
 static void sample_path(ag_scene *s, double (*at)[3], int count)
 {
     const int path = ag_scene_find_camera(s, "path");

@@ -90,12 +90,89 @@ static void maze_has_no_leaks(void **state)
     ag_scene_destroy(s);
 }
 
+// ---- garden --------------------------------------------------------------------------
+
+static bool is_masked(const ag_scene *s, const ag_instance *i)
+{
+    return s->materials[s->primitives[i->primitive].material].alpha == AG_ALPHA_MASK;
+}
+
+static void garden_is_leaves_for_the_most_part(void **state)
+{
+    (void) state;
+    ag_scene *s = open_scene("garden");
+    size_t masked = 0;
+    const size_t all = scene_triangles(s);
+    assert_in_range(all, 150000, 300000);
+    for (int i = 0; i < s->instance_count; ++i)
+        if (is_masked(s, &s->instances[i]))
+            masked += s->primitives[s->instances[i].primitive].index_count / 3;
+    assert_true(masked > all / 2);
+    ag_scene_destroy(s);
+}
+
+// How far the instance's point 2 m above its node has gone.
+static double gone(const double before[16], const double now[16])
+{
+    double sum = 0.0;
+    for (int k = 12; k < 15; ++k) {
+        const double d = now[k] + 2.0 * now[k - 8] - before[k] - 2.0 * before[k - 8];
+        sum += d * d;
+    }
+    return sqrt(sum);
+}
+
+static void garden_leaves_sway_a_little_and_some_rest(void **state)
+{
+    (void) state;
+    ag_scene *s = open_scene("garden");
+    double(*before)[16] = calloc((size_t) s->instance_count, sizeof *before);
+    assert_non_null(before);
+    for (int i = 0; i < s->instance_count; ++i)
+        memcpy(before[i], s->instances[i].world, sizeof before[i]);
+    ag_scene_set_time(s, 0.7);
+    int swaying = 0, resting = 0;
+    for (int i = 0; i < s->instance_count; ++i) {
+        const double way = gone(before[i], s->instances[i].world);
+        if (!is_masked(s, &s->instances[i]))
+            continue;
+        resting += !s->instances[i].moving;
+        swaying += s->instances[i].moving && way > 1e-4;
+        if (way > 0.3)
+            fail_msg("garden: leaves go %.2f m in 0.7 s", way);
+    }
+    assert_true(swaying > 50 && resting > 50);
+    free(before);
+    ag_scene_destroy(s);
+}
+
+static void garden_sun_goes_slowly_and_stays_up(void **state)
+{
+    (void) state;
+    ag_scene *s = open_scene("garden");
+    assert_int_equal(s->lights[0].kind, AG_LIGHT_DIRECTIONAL);
+    float before[3];
+    for (int t = 0; t < 48; ++t) {
+        ag_scene_set_time(s, t);
+        const float *now = s->lights[0].direction;
+        assert_true(now[1] < -0.4f);
+        // 0.30 tau / 48 and 0.08 tau / 48 radians a second at most.
+        for (int k = 0; k < 3 && t > 0; ++k)
+            assert_true(fabsf(now[k] - before[k]) < 0.055f);
+        memcpy(before, now, sizeof before);
+    }
+    ag_scene_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maze_light_falls_into_its_first_leg_alone),
         cmocka_unit_test(maze_statue_has_tens_of_thousands_of_triangles),
         cmocka_unit_test(maze_has_no_leaks),
+        cmocka_unit_test(garden_is_leaves_for_the_most_part),
+        cmocka_unit_test(garden_leaves_sway_a_little_and_some_rest),
+        cmocka_unit_test(garden_sun_goes_slowly_and_stays_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
