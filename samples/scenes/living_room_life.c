@@ -31,7 +31,7 @@ static const float frame_seconds = 0.5f; // three rounds a period
 static void show_film(living_room *r)
 {
     float times[FRAMES + 1], offsets[2 * (FRAMES + 1)], glow[3 * (FRAMES + 1)];
-    static const float bright[4] = { 1.5f, 2.0f, 3.4f, 1.6f };
+    static const float bright[4] = { 1.1f, 1.3f, 2.6f, 1.1f };
     for (int i = 0; i <= FRAMES; ++i) {
         const int frame = i % FRAMES;
         times[i] = frame_seconds * (float) i;
@@ -117,9 +117,11 @@ static void add_lamps(living_room *r)
     static const float belly[][2] = { { 0, 0 },          { 0.07f, 0 },      { 0.075f, 0.01f },
                                       { 0.115f, 0.10f }, { 0.11f, 0.17f },  { 0.05f, 0.25f },
                                       { 0.02f, 0.28f },  { 0.015f, 0.36f }, { 0, 0.37f } };
-    static const float shade[][2] = {
-        { 0.235f, -0.14f }, { 0.175f, 0.16f }, { 0.171f, 0.16f }, { 0.231f, -0.14f }
-    };
+    static const float shade[][2] = { { 0.235f, -0.14f },
+                                      { 0.175f, 0.16f },
+                                      { 0.171f, 0.16f },
+                                      { 0.231f, -0.14f },
+                                      { 0.235f, -0.14f } };
     const int shaded = add_turned(r, "shade", PROFILE(shade), ROOM_SHADE);
     const int tall = add_turned(r, "pole", PROFILE(pole), ROOM_BRASS);
     const int low = add_turned(r, "belly", PROFILE(belly), ROOM_PORCELAIN);
