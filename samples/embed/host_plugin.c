@@ -5,12 +5,13 @@
 //     host_plugin [PLUGIN] [FILE.gltf]
 #include <epoxy/gl.h>
 #include <gi/registry.h>
-#include <math.h>
 #include <pass/gbuffer.h>
 #include <pass/lighting.h>
 #include <pass/post.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+#include "room.h"
 
 enum { WIDTH = 320, HEIGHT = 240, MAX_PARAMS = 32 };
 
@@ -37,52 +38,6 @@ static void print(void *user, fg_log_level level, const char *msg)
 
 static const fg_log log_to_stderr = { .fn = print, .level = FG_LOG_WARN };
 
-// A floor and a wall under a point light.
-static fg_status make_scene(ag_scene **out)
-{
-    static const ag_vertex corners[] = {
-        { { -2, 0, 2 }, { 0, 1, 0 }, .color = { 1, 1, 1, 1 } },
-        { { 2, 0, 2 }, { 0, 1, 0 }, .color = { 1, 1, 1, 1 } },
-        { { 2, 0, -2 }, { 0, 1, 0 }, .color = { 1, 1, 1, 1 } },
-        { { -2, 0, -2 }, { 0, 1, 0 }, .color = { 1, 1, 1, 1 } },
-    };
-    static const uint32_t indices[] = { 0, 1, 2, 0, 2, 3 };
-    ag_builder *b = ag_builder_create(&log_to_stderr, "floor and wall");
-    if (!b)
-        return FG_ERR_MEMORY;
-    ag_material red = ag_default_material();
-    red.base_color[1] = red.base_color[2] = 0.2f;
-    const ag_primitive_desc quad = {
-        .name = "quad",
-        .vertices = corners,
-        .vertex_count = FG_COUNT(corners),
-        .indices = indices,
-        .index_count = FG_COUNT(indices),
-        .material = ag_builder_material(b, &red),
-    };
-    const int primitive = ag_builder_primitive(b, &quad);
-    const ag_node_desc floor = { .name = "floor", .parent = -1 };
-    const ag_node_desc wall = { .name = "wall",
-                                .parent = -1,
-                                .translation = { 0, 0, -2 },
-                                .rotation = { sqrt(0.5), 0, 0, sqrt(0.5) } };
-    const ag_light light = { .name = "lamp",
-                             .position = { 0.5, 1.5, 0 },
-                             .direction = { 0, -1, 0 },
-                             .intensity = { 5, 5, 5 } };
-    ag_builder_show(b, ag_builder_node(b, &floor), primitive, -1);
-    ag_builder_show(b, ag_builder_node(b, &wall), primitive, -1);
-    const ag_camera camera = { .name = "eye",
-                               .world = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 3.5, 1 },
-                               .yfov = 0.9f,
-                               .znear = 0.01f };
-    ag_builder_light(b, -1, &light);
-    ag_builder_camera(b, -1, &camera);
-    const fg_status status = ag_scene_build(b, out);
-    ag_builder_destroy(b);
-    return status;
-}
-
 static fg_status create(host *h, const char *plugin, const char *file)
 {
     gi_value values[MAX_PARAMS];
@@ -90,7 +45,8 @@ static fg_status create(host *h, const char *plugin, const char *file)
     if (!s)
         s = fg_gl_device_create(&(fg_gl_device_desc){ .log = &log_to_stderr }, &h->device);
     if (!s)
-        s = file ? ag_scene_load(&log_to_stderr, file, &h->scene) : make_scene(&h->scene);
+        s = file ? ag_scene_load(&log_to_stderr, file, &h->scene)
+                 : room_create(&log_to_stderr, &h->scene);
     if (!s)
         s = ag_gpu_scene_create(&(ag_gpu_scene_desc){ &log_to_stderr, h->device, h->scene, 0 },
                                 &h->gpu);
