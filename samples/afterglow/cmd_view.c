@@ -14,7 +14,8 @@ static const char *default_plugin(const host *h)
 
 static int check(cli *c, const options *o)
 {
-    return o->output ? host_check_folder(c, o) : EXIT_DONE;
+    const int code = o->output ? host_check_folder(c, o) : EXIT_DONE;
+    return code == EXIT_DONE ? host_check_trace(c, o) : code;
 }
 
 static int open_inputs(host *h, options *o, setting *settings, int *count)
@@ -60,7 +61,7 @@ const command command_view = {
         "1/60 s of the clock. --verbose: a debug context, times of the first frames, and what\n"
         "is done.\n\nkeys:\n" VIEW_KEYS(KEY_LINE) VIEW_MOTIONS(MOTION_LINE),
     .option_names = OPTIONS_SCENE " --shader-dir --plugin-dir --debug" OPTIONS_FRAME
-                                  " --layer --frames --params --render-scale --output ",
+                                  " --layer --frames --params --render-scale --trace --output ",
     .min_operands = 1,
     .max_operands = 1,
     .run = run,

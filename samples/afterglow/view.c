@@ -160,6 +160,8 @@ static fg_status draw_scene(view *v)
         status = renderer_resize(v->r, size[0], size[1]);
     if (size[0] != v->size[0] || size[1] != v->size[1])
         view_say(v, FG_LOG_DEBUG, "size %d x %d", size[0], size[1]);
+    if (size[0] != v->size[0] || size[1] != v->size[1])
+        trace_mark(v->events, "resized");
     memcpy(v->size, size, sizeof size);
     const double begin = now_ms();
     if (status == FG_OK)
@@ -167,6 +169,7 @@ static fg_status draw_scene(view *v)
     if (status != FG_OK)
         return status;
     view_stats_take(v, now_ms() - begin);
+    trace_frame(v->events, v->r);
     return present(v, &camera);
 }
 
@@ -319,7 +322,9 @@ static int open_all(view *v)
     view_set set = { 0 };
     if (!view_gi_create(v) || !create_cameras(v))
         return cli_status(c, FG_ERR_MEMORY);
-    fg_status status = path ? view_set_load(&c->log, path, &set) : FG_OK;
+    fg_status status = trace_create(&c->log, v->h->o->trace, &v->events);
+    if (status == FG_OK && path)
+        status = view_set_load(&c->log, path, &set);
     if (status == FG_OK)
         status = open_window(v);
     int code = status == FG_OK ? open_screen(v) : cli_status(c, status);
@@ -329,8 +334,12 @@ static int open_all(view *v)
     return code;
 }
 
-static void close_all(view *v)
+// The trace is there where the window was closed, not where it failed.
+static int close_all(view *v, int code)
 {
+    const fg_status status = trace_finish(v->events, v->h->device, v->r, code == EXIT_DONE);
+    if (code == EXIT_DONE)
+        code = cli_status(v->h->c, status);
     renderer_destroy(v->r);
     view_presenter_finish(&v->presenter);
     if (v->ui)
@@ -340,6 +349,7 @@ static void close_all(view *v)
     view_gi_finish(v);
     view_graph_finish(&v->graph);
     free(v->camera_names);
+    return code;
 }
 
 int view_run(host *h, const view_start *start)
@@ -364,6 +374,5 @@ int view_run(host *h, const view_start *start)
         code = loop(&v);
         h->c->log = before;
     }
-    close_all(&v);
-    return code;
+    return close_all(&v, code);
 }

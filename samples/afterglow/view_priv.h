@@ -2,6 +2,7 @@
 #ifndef VIEW_PRIV_H
 #define VIEW_PRIV_H
 
+#include "trace.h"
 #include "view.h"
 #include "view_camera.h"
 #include "view_keys.h"
@@ -88,6 +89,7 @@ typedef struct view {
     view_window window;
     view_presenter presenter;
     renderer *r;
+    trace *events; // --trace; NULL without
     view_gi gi;
     view_clock clock;
     view_camera camera;

@@ -263,6 +263,22 @@ def a_fault_is_red_in_the_panel(folder):
         viewer.quits()
 
 
+def frames_are_traced(folder):
+    path = folder + '/trace.json'
+    args = ['cornell', '--gi', 'rsm', '--size', '64x48', '--frames', 20, '--trace', path]
+    with Screen() as screen:
+        succeeds('view', *args, env=screen.env)
+        with open(path) as f:
+            events = json.load(f)['traceEvents']
+        for track in [1, 2]:  # the panel and the split's copies are no passes of the graph
+            frames = [e['args']['shows'] for e in events
+                      if e['ph'] == 'X' and e['tid'] == track and e['name'].startswith('frame ')]
+            assert frames.count('rsm') >= 10 and set(frames) <= {'none', 'rsm'}, frames
+        os.unlink(path)
+        fails(1, ['nowhere'], 'view', 'cornell', '--trace', folder + '/nowhere/t.json', env=screen.env)
+    assert os.listdir(folder) == [], os.listdir(folder)
+
+
 if __name__ == '__main__':
     main([without_a_display_it_says_so, broken_sets_are_refused, a_picture_is_that_of_render,
-          it_is_driven_by_keys_and_mouse, modules_come_and_go, a_fault_is_red_in_the_panel])
+          it_is_driven_by_keys_and_mouse, modules_come_and_go, a_fault_is_red_in_the_panel, frames_are_traced])
