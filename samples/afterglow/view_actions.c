@@ -52,7 +52,7 @@ static void restart(view *v)
         status = renderer_set_split(v->r, NULL);
     v->gi.shows_split = false;
     if (status == FG_OK)
-        view_gi_touch(v, 3);
+        view_gi_nudge(v, v->gi.split ? 3 : 1); // its shaders are there: in this very frame
 }
 
 static void close_all(view *v)
