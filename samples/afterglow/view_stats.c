@@ -70,7 +70,7 @@ static void pass_row(const view_pass *p, double max)
     snprintf(text, sizeof text, p->gpu_ms < 0 ? "-" : "%.3f ms", p->gpu_ms);
     ui_bar(p->gpu_ms > 0 ? p->gpu_ms / max : 0, 0, text);
     ui_table_next();
-    snprintf(text, sizeof text, "%.3f", p->cpu_ms);
+    snprintf(text, sizeof text, "%.4g", p->cpu_ms);
     ui_text(UI_DIM, text);
     ui_tooltip("ms of the CPU: the pass's callback and what the device does around it");
 }
