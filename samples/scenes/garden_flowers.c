@@ -45,7 +45,7 @@ static void add_grass(garden *g)
     int parts[3];
     for (int i = 0; i < 3; ++i) {
         shape s = { 0 };
-        add_tufts(&s, 34, 0.62f, i == 2 ? 0.20f : 0.13f, 11u + (uint32_t) i);
+        add_tufts(&s, 26, 0.62f, i == 2 ? 0.20f : 0.13f, 11u + (uint32_t) i);
         parts[i] = kit_part(&g->k, "grass", &s, g->material[GARDEN_GRASS]);
     }
     uint32_t seed = 23u;
@@ -109,8 +109,13 @@ static void add_flower_parts(garden *g, garden_material colour, uint32_t seed, i
         const float angle = tau * shape_draw(&seed), out = 0.42f * sqrtf(shape_draw(&seed));
         const float x = out * cosf(angle), z = out * sinf(angle);
         const float high = 0.24f + 0.26f * shape_draw(&seed);
-        const float stalk[2][3] = { { x, 0, z }, { x * 1.15f, high, z * 1.15f } };
-        shape_tube(&leaves, &(shape_tube_desc){ stalk, 2, 0.004f, 4 });
+        const float top[3] = { x, high, z };
+        shape_frond(&leaves, &(shape_frond_desc){ .foot = { x, 0, z },
+                                                  .yaw = angle,
+                                                  .width = 0.02f,
+                                                  .length = high,
+                                                  .rise = 1.57f,
+                                                  .pieces = 1 });
         for (int k = 0; k < 2; ++k)
             shape_frond(&leaves, &(shape_frond_desc){ .foot = { x, 0, z },
                                                       .yaw = tau * shape_draw(&seed),
@@ -119,7 +124,7 @@ static void add_flower_parts(garden *g, garden_material colour, uint32_t seed, i
                                                       .rise = 1.1f,
                                                       .droop = 0.9f,
                                                       .pieces = 2 });
-        shape_card(&heads, stalk[1], (float[3]){ 0.3f * x, 1.0f, 0.3f * z + 0.02f }, 0.105f, &seed);
+        shape_card(&heads, top, (float[3]){ 0.3f * x, 1.0f, 0.3f * z + 0.02f }, 0.105f, &seed);
     }
     parts[0] = kit_part(&g->k, "stalks", &leaves, g->material[GARDEN_FERN]);
     parts[1] = kit_part(&g->k, "heads", &heads, g->material[colour]);

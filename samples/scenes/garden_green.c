@@ -55,7 +55,7 @@ void garden_add_hedges(garden *g)
         { 2.5, 0, 6.4, 1.9 },  { 2.0, 0, 5.2, 2.3 },   { -0.2, 0, 6.6, 1.35 },
         { -1.2, 0, 4.7, 1.1 }, { 6.9, 0, -3.3, 1.57 }, { 6.9, 0, -1.3, 1.57 },
     };
-    const int high[2] = { add_hedge_part(g, tall, 950, 0.30f, 3u), add_core_part(g, tall) };
+    const int high[2] = { add_hedge_part(g, tall, 700, 0.34f, 3u), add_core_part(g, tall) };
     const int edge[2] = { add_hedge_part(g, low, 360, 0.17f, 4u), add_core_part(g, low) };
     for (int i = 0; i < 6; ++i) // the east
         show_hedge(g, high, (place){ (double) garden_half_x, 0, -6.2 + 2.5 * i, 1.57079633 });
@@ -117,7 +117,7 @@ static int add_trunk_part(garden *g)
     const shape_field_desc wood = { .field = trunk,
                                     .lo = { -1.3f, -0.35f, -1.35f },
                                     .hi = { 1.95f, 3.85f, 1.3f },
-                                    .cell = 0.055f,
+                                    .cell = 0.085f,
                                     .steepest = 1.4f };
     shape s = { .tiling = 0.6f };
     shape_field(&s, &wood);

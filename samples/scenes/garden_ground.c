@@ -55,7 +55,7 @@ static void ground_point(const void *user, float u, float v, float p[3], float u
 
 static void add_lawn(garden *g)
 {
-    const shape_sheet_desc sheet = { .point = ground_point, .nu = 108, .nv = 84 };
+    const shape_sheet_desc sheet = { .point = ground_point, .nu = 72, .nv = 56 };
     shape s = { .tiling = 0.5f };
     shape_sheet(&s, &sheet);
     kit_show(&g->k, "lawn", kit_part(&g->k, "lawn", &s, g->material[GARDEN_LAWN]), -1,
@@ -136,7 +136,7 @@ static void add_pond(garden *g)
     // A ring of rounded stones.
     const int stones = 44;
     shape r = { .tiling = 1.0f };
-    shape_sphere(&r, (float[3]){ 0, 0, 0 }, 0.19f, 14);
+    shape_sphere(&r, (float[3]){ 0, 0, 0 }, 0.19f, 10);
     for (size_t i = 0; i < r.vertex_count; ++i) {
         float *p = r.vertices[i].position;
         const float lump = 1.0f + 0.10f * sinf(13.0f * p[0] + 4.0f * p[1]) * cosf(11.0f * p[2]);

@@ -96,8 +96,8 @@ static void add_lantern(garden *g)
         .name = "lantern",
         .kind = AG_LIGHT_SPOT,
         .intensity = { 22.0f, 13.0f, 5.5f }, // W/sr
-        .cos_inner = cosf(0.75f),
-        .cos_outer = cosf(1.10f),
+        .cos_inner = cosf(0.50f),
+        .cos_outer = cosf(0.77f),
     };
     ag_builder_light(g->k.builder, ag_builder_node(g->k.builder, &flame), &spot);
 }

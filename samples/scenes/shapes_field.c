@@ -41,7 +41,7 @@ float field_join(float a, float b, float k)
 
 // ---- surface nets ------------------------------------------------------------------------
 
-enum { BLOCK = 8 }; // cells along an edge of what is skipped at once
+enum { BLOCK = 4 }; // cells along an edge of what is skipped at once
 
 typedef struct net {
     const shape_field_desc *d;
