@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 static fg_status nothing(const fg_run *run, void *user)
 {
@@ -185,6 +186,56 @@ static void no_result_is_asked_for_before_it_is_there(void **state)
     fg_graph_destroy(g);
 }
 
+// ---- when, by the CPU's clock -----------------------------------------------------------
+
+static int64_t monotonic(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (int64_t) t.tv_sec * 1000000000 + t.tv_nsec;
+}
+
+// Each frame lies within what the CPU saw of it, but for what two clocks that were set once drift
+// apart in a test: 100 millionths, a bad quartz, of 10 s are 1 ms. With the results of a query
+// meant for a buffer of the host's, as well.
+static void frames_lie_where_the_cpu_saw_them(void **state)
+{
+    enum { FRAMES = 5, PASSES = 3, SLACK = 1000000 };
+    fixture *f = *state;
+    fg_graph *g = open_graph(f, 0, 0);
+    const fg_device_ops *ops = f->device->ops;
+    int64_t from[FRAMES], to[FRAMES], begin, end;
+    GLuint buffer;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, 4096, NULL, 0);
+    declare(g, "pass", PASSES);
+    for (int i = 0; i < FRAMES; ++i) {
+        from[i] = monotonic();
+        run(g, 1);
+        glBindBuffer(GL_QUERY_BUFFER, buffer);
+        assert_int_equal(fg_gl_finish(f->device), FG_OK);
+        to[i] = monotonic();
+    }
+    for (uint64_t i = 0; i < FRAMES; ++i) {
+        int64_t before = from[i] - SLACK;
+        for (int k = 0; k < PASSES; ++k) {
+            assert_true(ops->time_of(f->device, k, i, &begin, &end));
+            assert_true(before <= begin && begin <= end && end <= to[i] + SLACK);
+            before = end;
+        }
+        assert_false(ops->time_of(f->device, PASSES, i, &begin, &end));
+    }
+    assert_false(ops->time_of(f->device, 0, FRAMES, &begin, &end)); // has not run
+    run(g, 20);
+    assert_int_equal(fg_gl_finish(f->device), FG_OK);
+    assert_false(ops->time_of(f->device, 0, 0, &begin, &end)); // too long ago
+    declare(g, "other", PASSES);
+    run(g, 1);
+    assert_false(ops->time_of(f->device, 0, 20, &begin, &end)); // of the graph before
+    glDeleteBuffers(1, &buffer);
+    fg_graph_destroy(g);
+}
+
 // ---- a software renderer --------------------------------------------------------------------
 
 static fg_status count_long(const fg_run *run, void *user)
@@ -248,6 +299,7 @@ int main(void)
         TEST(more_passes_than_before_are_all_timed),
         TEST(timings_come_without_waiting_within_some_frames),
         TEST(no_result_is_asked_for_before_it_is_there),
+        TEST(frames_lie_where_the_cpu_saw_them),
         cmocka_unit_test(compute_passes_take_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
