@@ -120,8 +120,8 @@ typedef struct gi_plugin {
     // New values without losing the rest. FG_ERR_UNSUPPORTED: create anew. Optional.
     fg_status (*set)(void *self, const gi_value *values);
 
-    // CPU work before a frame: light motion, buffer contents. Optional. A plugin that fails here, in
-    // what it declares or in a pass may be dropped: samples/afterglow goes on with direct light.
+    // CPU work before a frame: light motion, buffer contents. Optional. A plugin that fails here,
+    // in what it declares or in a pass may be dropped: samples/afterglow goes on with direct light.
     fg_status (*update)(void *self, const gi_frame *frame);
 
     // Adds the technique's passes and fills `out`, zeroed by the caller. Errors stick to the graph.
