@@ -48,8 +48,7 @@ static void add_cameras(maze *m)
         .name = "path", .stops = stops, .count = FG_COUNT(stops), .seconds = 36.0f, .yfov = 1.1f
     };
     kit_camera(&m->k, "entry", (double[]){ 5.2, 1.6, 12.4 }, (double[]){ 12.4, 1.35, 11.5 }, 0.9f);
-    kit_camera(&m->k, "statue", (double[]){ 10.9, 1.55, 12.4 }, (double[]){ 12.9, 1.5, 11.5 },
-               1.0f);
+    kit_camera(&m->k, "statue", (double[]){ 9.8, 1.6, 12.5 }, (double[]){ 12.9, 1.6, 11.4 }, 1.0f);
     kit_camera(&m->k, "door", (double[]){ 11.3, 1.65, 12.5 }, (double[]){ 12.5, 1.3, 8.0 }, 1.05f);
     kit_camera(&m->k, "hall", (double[]){ 11.2, 1.7, 9.7 }, (double[]){ 14.2, 1.2, 12.2 }, 1.15f);
     kit_camera(&m->k, "light", (double[]){ 14.9, 1.7, 9.6 }, (double[]){ 9.0, 0.9, 12.2 }, 1.0f);

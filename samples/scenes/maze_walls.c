@@ -28,7 +28,9 @@ static const float roof = 3.6f; // the top of its slab
 
 static char at(int x, int z)
 {
-    return x < 0 || z < 0 || x >= MAZE_NX || z >= MAZE_NZ ? ' ' : plan[z][x];
+    if (x < 0 || z < 0 || x >= MAZE_NX || z >= MAZE_NZ)
+        return ' ';
+    return plan[z][x];
 }
 
 static bool is_free(int x, int z)

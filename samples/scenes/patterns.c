@@ -227,13 +227,15 @@ void pattern_paint(pattern what, int size, uint8_t *rgba)
 {
     enum { THREADS = 4 };
     uint8_t table[ENCODE_STEPS + 1];
+    const stripe whole = { .what = what, .size = size, .encoded = table, .rgba = rgba };
     stripe stripes[THREADS];
     pthread_t threads[THREADS];
     bool started[THREADS] = { false };
     encode_table(table);
     for (int i = THREADS - 1; i >= 0; --i) {
-        stripes[i] =
-            (stripe){ what, size, size * i / THREADS, size * (i + 1) / THREADS, table, rgba };
+        stripes[i] = whole;
+        stripes[i].first = size * i / THREADS;
+        stripes[i].last = size * (i + 1) / THREADS;
         // The first is painted here, and so is one that gets no thread.
         started[i] = i > 0 && !pthread_create(&threads[i], NULL, paint_stripe, &stripes[i]);
         if (!started[i])
