@@ -227,10 +227,11 @@ void pattern_paint(pattern what, int size, uint8_t *rgba)
 {
     enum { THREADS = 4 };
     uint8_t table[ENCODE_STEPS + 1];
-    const stripe whole = { .what = what, .size = size, .encoded = table, .rgba = rgba };
+    stripe whole = { .what = what, .size = size, .encoded = table };
     stripe stripes[THREADS];
     pthread_t threads[THREADS];
     bool started[THREADS] = { false };
+    whole.rgba = rgba;
     encode_table(table);
     for (int i = THREADS - 1; i >= 0; --i) {
         stripes[i] = whole;
