@@ -4,12 +4,6 @@
 
 #include <math.h>
 
-static float draw(uint32_t *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (float) (*state >> 8) * (1.0f / 16777216.0f);
-}
-
 // A box of which each side shows the whole texture.
 static void add_carton(shape *s, const float middle[3], const float size[3])
 {
@@ -53,13 +47,13 @@ static int stack_part(factory *f, int which)
     for (int y = 0; y < n[2]; ++y)
         for (int i = 0; i < n[0] * n[1]; ++i) {
             // The top layer has been taken from.
-            if (y == n[2] - 1 && n[2] > 1 && draw(&state) < 0.3f)
+            if (y == n[2] - 1 && n[2] > 1 && shape_draw(&state) < 0.3f)
                 continue;
             const int column = i % n[0], row = i / n[0];
             const float at[3] = { -0.58f + size[0] * ((float) column + 0.5f), size[1] * (float) y,
                                   -0.39f + size[2] * ((float) row + 0.5f) };
-            const float own[3] = { size[0] - 0.012f - 0.01f * draw(&state), size[1] - 0.003f,
-                                   size[2] - 0.012f - 0.01f * draw(&state) };
+            const float own[3] = { size[0] - 0.012f - 0.01f * shape_draw(&state), size[1] - 0.003f,
+                                   size[2] - 0.012f - 0.01f * shape_draw(&state) };
             add_carton(&s, at, own);
         }
     return factory_part(f, "stack", &s, which == 2 ? FACTORY_WHITE_CARTON : FACTORY_CARTON);
@@ -134,12 +128,12 @@ static void fill_bay(factory *f, int rack, float x, uint32_t *state)
         const int level = i / 2;
         const place at = { (double) x + 0.72 + 1.31 * (i % 2),
                            (double) (rack_level * (float) level),
-                           0.04 * (double) (draw(state) - 0.5f),
-                           0.05 * (double) (draw(state) - 0.5f) };
-        if (draw(state) < 0.14f)
+                           0.04 * (double) (shape_draw(state) - 0.5f),
+                           0.05 * (double) (shape_draw(state) - 0.5f) };
+        if (shape_draw(state) < 0.14f)
             continue;
         const int node = kit_show(&f->k, "pallet", f->goods.pallet, rack, at);
-        const int which = (int) (3.6f * draw(state));
+        const int which = (int) (3.6f * shape_draw(state));
         const int stack = f->goods.stacks[which > 3 ? 3 : which];
         kit_show(&f->k, "stack", stack, node, (place){ 0, 0.14, 0, 0 });
     }

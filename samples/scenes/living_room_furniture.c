@@ -4,12 +4,6 @@
 
 #include <math.h>
 
-static float draw(uint32_t *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (float) (*state >> 8) * (1.0f / 16777216.0f);
-}
-
 // Books side by side on a board of `width`, as tall as `height` allows.
 static void fill_board(shape *s, float x, float y, float width, float height, uint32_t *state)
 {
@@ -17,15 +11,15 @@ static void fill_board(shape *s, float x, float y, float width, float height, ui
                                         { 0.10f, 0.26f, 0.14f }, { 0.60f, 0.48f, 0.28f },
                                         { 0.24f, 0.11f, 0.20f }, { 0.70f, 0.66f, 0.58f },
                                         { 0.55f, 0.30f, 0.07f }, { 0.12f, 0.12f, 0.13f } };
-    const float end = x + width * (0.72f + 0.26f * draw(state));
+    const float end = x + width * (0.72f + 0.26f * shape_draw(state));
     while (x < end) {
-        const float thickness = 0.018f + 0.034f * draw(state);
-        const float tall = height * (0.62f + 0.30f * draw(state)),
-                    deep = 0.17f + 0.06f * draw(state);
+        const float thickness = 0.018f + 0.034f * shape_draw(state);
+        const float tall = height * (0.62f + 0.30f * shape_draw(state)),
+                    deep = 0.17f + 0.06f * shape_draw(state);
         const size_t first = s->vertex_count;
         shape_box(s, (float[3]){ x, y, -0.135f },
                   (float[3]){ x + thickness - 0.002f, y + tall, -0.135f + deep });
-        shape_paint(s, first, cloths[(int) (8.0f * draw(state))]);
+        shape_paint(s, first, cloths[(int) (8.0f * shape_draw(state))]);
         x += thickness;
     }
 }
@@ -132,13 +126,13 @@ static void add_plant(living_room *r, int leaves, float tall, place at, uint32_t
     shape_lathe(&s, &turned);
     const int node = room_put(r, "pot", &s, ROOM_CLAY, at);
     for (int i = 0; i < leaves; ++i) {
-        const float angle = 2.399963f * (float) i + 0.5f * draw(&seed),
-                    out = 0.02f + 0.05f * draw(&seed);
+        const float angle = 2.399963f * (float) i + 0.5f * shape_draw(&seed),
+                    out = 0.02f + 0.05f * shape_draw(&seed);
         const leaf l = { .foot = { out * cosf(angle), 0.27f, out * sinf(angle) },
                          .way = { cosf(angle), sinf(angle) },
-                         .length = tall * (0.65f + 0.35f * draw(&seed)),
-                         .width = 0.10f + 0.05f * draw(&seed),
-                         .droop = 0.15f + 0.55f * draw(&seed) };
+                         .length = tall * (0.65f + 0.35f * shape_draw(&seed)),
+                         .width = 0.10f + 0.05f * shape_draw(&seed),
+                         .droop = 0.15f + 0.55f * shape_draw(&seed) };
         const shape_sheet_desc sheet = { .point = leaf_point, .user = &l, .nu = 4, .nv = 12 };
         shape_sheet(&s, &sheet);
     }
