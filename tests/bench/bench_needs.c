@@ -4,7 +4,7 @@
 //
 //     bench_needs [--size N|WxH] [--scene NAME] [--gi NAME]... [--least] [--verbose] [FIGURE]...
 //
-// Direct light, rsm and isr at 320 x 180 where nothing is said. Figures are "needs.FIGURE.GI":
+// Direct light, rsm and isr at 160 x 90 where nothing is said. Figures are "needs.FIGURE.GI":
 // ms and bytes as they are ("kept") and forced on ("all"), and what is saved as a ratio; a table of
 // the same is on stderr. "cpu" is what all threads of the process take: on a software renderer all
 // of a frame, and less disturbed by what else the machine does than the time that passes.
@@ -16,8 +16,8 @@
 #include <time.h>
 
 enum { KEPT, ALL, SIDES };
-enum { WARM = 2, LEAST = 5, MOST = 21 };
-static const double patience_ms = 4e3; // after that, LEAST frames have to do
+enum { WARM = 1, LEAST = 3, MOST = 21 };
+static const double patience_ms = 2e3; // after that, LEAST frames have to do
 
 // Both sides, and the CPU's time of their frames.
 typedef struct pair {
@@ -159,7 +159,7 @@ int main(int argc, char **argv)
     static const bench_part parts[] = { bench_needs, NULL };
     const bench_program program = {
         .name = "bench_needs",
-        .size = { 320, 180 },
+        .size = { 160, 90 },
         .builtin = true,
         .parts = parts,
     };
