@@ -52,8 +52,9 @@ static int stack_part(factory *f, int which)
             const int column = i % n[0], row = i / n[0];
             const float at[3] = { -0.58f + size[0] * ((float) column + 0.5f), size[1] * (float) y,
                                   -0.39f + size[2] * ((float) row + 0.5f) };
-            const float own[3] = { size[0] - 0.012f - 0.01f * shape_draw(&state), size[1] - 0.003f,
-                                   size[2] - 0.012f - 0.01f * shape_draw(&state) };
+            const float wide = size[0] - 0.012f - 0.01f * shape_draw(&state);
+            const float deep = size[2] - 0.012f - 0.01f * shape_draw(&state);
+            const float own[3] = { wide, size[1] - 0.003f, deep };
             add_carton(&s, at, own);
         }
     return factory_part(f, "stack", &s, which == 2 ? FACTORY_WHITE_CARTON : FACTORY_CARTON);
@@ -126,10 +127,10 @@ static void fill_bay(factory *f, int rack, float x, uint32_t *state)
 {
     for (int i = 0; i < 2 * (RACK_LEVELS + 1); ++i) {
         const int level = i / 2;
+        const float off = 0.04f * (shape_draw(state) - 0.5f);
+        const float yaw = 0.05f * (shape_draw(state) - 0.5f);
         const place at = { (double) x + 0.72 + 1.31 * (i % 2),
-                           (double) (rack_level * (float) level),
-                           0.04 * (double) (shape_draw(state) - 0.5f),
-                           0.05 * (double) (shape_draw(state) - 0.5f) };
+                           (double) (rack_level * (float) level), (double) off, (double) yaw };
         if (shape_draw(state) < 0.14f)
             continue;
         const int node = kit_show(&f->k, "pallet", f->goods.pallet, rack, at);

@@ -128,11 +128,14 @@ static void add_plant(living_room *r, int leaves, float tall, place at, uint32_t
     for (int i = 0; i < leaves; ++i) {
         const float angle = 2.399963f * (float) i + 0.5f * shape_draw(&seed),
                     out = 0.02f + 0.05f * shape_draw(&seed);
+        const float length = tall * (0.65f + 0.35f * shape_draw(&seed));
+        const float width = 0.10f + 0.05f * shape_draw(&seed);
+        const float droop = 0.15f + 0.55f * shape_draw(&seed);
         const leaf l = { .foot = { out * cosf(angle), 0.27f, out * sinf(angle) },
                          .way = { cosf(angle), sinf(angle) },
-                         .length = tall * (0.65f + 0.35f * shape_draw(&seed)),
-                         .width = 0.10f + 0.05f * shape_draw(&seed),
-                         .droop = 0.15f + 0.55f * shape_draw(&seed) };
+                         .length = length,
+                         .width = width,
+                         .droop = droop };
         const shape_sheet_desc sheet = { .point = leaf_point, .user = &l, .nu = 4, .nv = 12 };
         shape_sheet(&s, &sheet);
     }
