@@ -249,6 +249,22 @@ def modules_come_and_go(folder):
         viewer.quits()
 
 
+def a_key_that_is_held_ends_with_the_focus(folder):
+    with Screen() as screen, Viewer(screen, folder, 'cornell', '--size', '64x48', '--gi', 'none') as viewer:
+        viewer.wait('first frame after')
+        viewer.do('keydown', 'w')
+        viewer.wait('camera free')
+        viewer.do('search', '--name', 'afterglow', 'windowunmap')
+        time.sleep(0.5)
+        viewer.do('keyup', 'w') # which nobody hears
+        viewer.do('search', '--name', 'afterglow', 'windowmap', '--sync', 'windowfocus')
+        time.sleep(0.5)
+        eye = viewer.saved()['camera']['eye']
+        time.sleep(0.5)
+        assert viewer.saved()['camera']['eye'] == eye
+        viewer.quits()
+
+
 def a_fault_is_red_in_the_panel(folder):
     args = ['cornell', '--size', '600x400', '--render-scale', 4, '--plugin-dir', FAULTY, '--gi', 'failing', '--gi', 'rsm']
     with Screen() as screen, Viewer(screen, folder, *args) as viewer:
@@ -281,4 +297,5 @@ def frames_are_traced(folder):
 
 if __name__ == '__main__':
     main([without_a_display_it_says_so, broken_sets_are_refused, a_picture_is_that_of_render,
-          it_is_driven_by_keys_and_mouse, modules_come_and_go, a_fault_is_red_in_the_panel, frames_are_traced])
+          it_is_driven_by_keys_and_mouse, a_key_that_is_held_ends_with_the_focus, modules_come_and_go,
+          a_fault_is_red_in_the_panel, frames_are_traced])
