@@ -10,7 +10,7 @@
 
 static const float tau = 6.28318531f;
 static const double quarter = 1.57079632679489661923;
-static const float period = 24.0f; // s
+static const float period = 24.0f, round_time = 36.0f; // s; the second is the camera's
 
 static int add_turned(maze *m, const char *name, maze_material material, shape_lathe_desc desc)
 {
@@ -171,7 +171,10 @@ static void add_door(maze *m)
     const int hinge = kit_node(&m->k, "hinge", -1, (place){ x, 0, z, -2.0 });
     const int leaf = kit_show(&m->k, "door", add_leaf_part(m, MAZE_WOOD), hinge, (place){ 0 });
     kit_show(&m->k, "bands", add_leaf_part(m, MAZE_BRASS), leaf, (place){ 0 });
-    const kit_swing_desc swing = { .axis = 1, .amplitude = 0.55f, .seconds = period, .count = 2 };
+    // Wide open whenever the camera "path" goes by: three swings to its round.
+    const kit_swing_desc swing = {
+        .axis = 1, .amplitude = 0.55f, .phase = 0.5f, .seconds = period, .count = 2
+    };
     kit_swing(&m->k, leaf, &swing);
 }
 
@@ -202,11 +205,14 @@ static void add_censers(maze *m)
     }
 }
 
-// Along the first leg, from opening to opening.
+// At the statue's end of the first leg, to and fro, while the camera "path" is in its hall and
+// beyond; along the whole leg and back while the camera returns.
 static void sun_along(const void *user, float t, float out[4])
 {
+    static const float turn = 0.62f;
     (void) user;
-    out[0] = 3.2f * (cosf(tau * t) - 1.0f);
+    out[0] = t < turn ? 0.5f * (cosf(tau * t / turn) - 1.0f)
+                      : 3.2f * (cosf(tau * (t - turn) / (1.0f - turn)) - 1.0f);
     out[1] = out[2] = 0.0f;
 }
 
@@ -232,7 +238,7 @@ static void add_sun(maze *m)
     const kit_motion motion = { .node = runner,
                                 .path = AG_PATH_TRANSLATION,
                                 .keys = 97,
-                                .seconds = period,
+                                .seconds = round_time,
                                 .curve = sun_along };
     kit_move(&m->k, &motion);
     ag_builder_light(m->k.builder, ag_builder_node(m->k.builder, &arm), &spot);

@@ -90,6 +90,25 @@ static void maze_has_no_leaks(void **state)
     ag_scene_destroy(s);
 }
 
+// The path goes through a door that swings: as it is at each moment, nothing is near the camera.
+static void maze_camera_never_meets_the_door(void **state)
+{
+    (void) state;
+    ag_scene *s = open_scene("maze");
+    const int path = ag_scene_find_camera(s, "path");
+    for (int i = 0; i < 64; ++i) {
+        ag_scene_set_time(s, 9.0 + 0.25 * i); // into the hall, through the door and back
+        const soup w = soup_of(s);
+        for (int k = 0; k < 12; ++k) {
+            const double way[3] = { cos(0.5236 * k), 0, sin(0.5236 * k) };
+            if (soup_nearest(&w, s->cameras[path].world + 12, way, 1.0) < 0.15)
+                fail_msg("maze: the camera is in something at %g s", 9.0 + 0.25 * i);
+        }
+        free(w.corners);
+    }
+    ag_scene_destroy(s);
+}
+
 // ---- garden --------------------------------------------------------------------------
 
 static bool is_masked(const ag_scene *s, const ag_instance *i)
@@ -170,6 +189,7 @@ int main(void)
         cmocka_unit_test(maze_light_falls_into_its_first_leg_alone),
         cmocka_unit_test(maze_statue_has_tens_of_thousands_of_triangles),
         cmocka_unit_test(maze_has_no_leaks),
+        cmocka_unit_test(maze_camera_never_meets_the_door),
         cmocka_unit_test(garden_is_leaves_for_the_most_part),
         cmocka_unit_test(garden_leaves_sway_a_little_and_some_rest),
         cmocka_unit_test(garden_sun_goes_slowly_and_stays_up),
