@@ -84,8 +84,8 @@ alone() { # the frame graph with nothing but libepoxy and EGL
     build_in build-alone -Dpasses=false -Dwerror=true
 }
 
-tidy() {
-    sources | grep '\.c$' | grep -v '^tests/fuzz' |
+tidy() { # samples/out_of_tree is checked where it is built: by tests/install/outside.sh
+    sources | grep '\.c$' | grep -v -e '^tests/fuzz' -e '^samples/out_of_tree' |
         xargs -P "$jobs" -n 1 clang-tidy -p build --quiet 2>/dev/null
 }
 

@@ -39,6 +39,7 @@ if grep -rlF "$source/" plugin/build --include='*.ninja' --include='*.d' --inclu
     echo "these name the source tree"
     exit 1
 fi
+clang-tidy --config-file="$source/.clang-tidy" -p plugin/build --quiet plugin/screen.c
 
 echo "== its picture"
 afterglow=$prefix/bin/afterglow
