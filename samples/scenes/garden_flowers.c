@@ -87,15 +87,15 @@ static void add_ferns(garden *g)
     };
     uint32_t seed = 31u;
     shape s = { 0 };
-    for (int i = 0; i < 15; ++i)
-        shape_frond(&s,
-                    &(shape_frond_desc){ .foot = { 0, 0, 0 },
-                                         .yaw = tau * (float) i / 15.0f + 0.3f * shape_draw(&seed),
-                                         .width = 0.26f,
-                                         .length = 0.62f + 0.25f * shape_draw(&seed),
-                                         .rise = 1.15f + 0.25f * shape_draw(&seed),
-                                         .droop = 1.5f,
-                                         .pieces = 6 });
+    for (int i = 0; i < 15; ++i) {
+        const float turn = shape_draw(&seed), length = shape_draw(&seed), rise = shape_draw(&seed);
+        shape_frond(&s, &(shape_frond_desc){ .yaw = tau * (float) i / 15.0f + 0.3f * turn,
+                                             .width = 0.26f,
+                                             .length = 0.62f + 0.25f * length,
+                                             .rise = 1.15f + 0.25f * rise,
+                                             .droop = 1.5f,
+                                             .pieces = 6 });
+    }
     const int part = kit_part(&g->k, "fern", &s, g->material[GARDEN_FERN]);
     for (int i = 0; i < FG_COUNT(where); ++i)
         kit_show(&g->k, "fern", part, -1, on_ground(where[i][0], where[i][1], 1.7f * (float) i));

@@ -150,11 +150,10 @@ static void add_pond(garden *g)
     for (int i = 0; i < stones; ++i) {
         const float angle = tau * ((float) i + 0.3f * shape_draw(&seed)) / (float) stones;
         const float out = garden_pond[2] + 0.10f * shape_draw(&seed);
+        const float high = 0.05f * shape_draw(&seed) - 0.02f, turn = 0.4f * shape_draw(&seed);
         kit_show(&g->k, "stone", part, -1,
-                 (place){ x + (double) (out * cosf(angle)),
-                          -0.02 + 0.05 * (double) shape_draw(&seed),
-                          z + (double) (out * sinf(angle)),
-                          (double) (1.57f - angle) + 0.4 * (double) shape_draw(&seed) });
+                 (place){ x + (double) (out * cosf(angle)), (double) high,
+                          z + (double) (out * sinf(angle)), (double) (1.57f - angle + turn) });
     }
 }
 
