@@ -44,6 +44,7 @@ static const struct {
 };
 static const char *const scene_names[] = { "cornell", "atrium" };
 enum { SETTINGS = FG_COUNT(settings), SCENES = FG_COUNT(scene_names), CASES = SETTINGS * SCENES };
+enum { MEASURED = 1 }; // the case where memory is measured
 
 static void say(void *user, fg_log_level level, const char *msg)
 {
@@ -128,8 +129,8 @@ static fg_status switch_to(stress *s, int which)
         return status;
     if (scene == s->scene_index) {
         // The same technique keeps what it can, which is meant; only by way of nothing it begins
-        // anew.
-        if (settings[which % SETTINGS].keeps)
+        // anew, and has no more than it needs where memory is measured.
+        if (settings[which % SETTINGS].keeps || which == MEASURED)
             status = renderer_set_plugin(s->r, NULL, NULL);
         return status ? status : renderer_set_plugin(s->r, plugin, values);
     }
@@ -307,7 +308,7 @@ static int roll(int sides) // xorshift64*
 static int next_case(int i, int count)
 {
     if (i == EARLY || (i == count && count > EARLY))
-        return 1;
+        return MEASURED;
     return i <= CASES ? i - 1 : roll(CASES);
 }
 
