@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-// The pavilion, its lantern, the bench by the pond, and the sun.
+// The pavilion, its lantern, the bench by the pond, and the moon.
 
 #define PROFILE(array) .profile = (const float(*)[2]) array, .count = FG_COUNT(array)
 
@@ -95,15 +95,15 @@ static void add_lantern(garden *g)
     const ag_light spot = {
         .name = "lantern",
         .kind = AG_LIGHT_SPOT,
-        .intensity = { 22.0f, 13.0f, 5.5f }, // W/sr
+        .intensity = { 66.0f, 39.0f, 16.0f }, // W/sr
         .cos_inner = cosf(0.50f),
         .cos_outer = cosf(0.77f),
     };
     ag_builder_light(g->k.builder, ag_builder_node(g->k.builder, &flame), &spot);
 }
 
-// An hour or two to and fro, in the afternoon.
-static void sun_turn(const void *user, float t, float out[4])
+// An hour or two to and fro, while the moon is high.
+static void moon_turn(const void *user, float t, float out[4])
 {
     (void) user;
     const double around = 0.55 + 0.30 * (double) sinf(tau * t),
@@ -116,21 +116,23 @@ static void sun_turn(const void *user, float t, float out[4])
         out[k] = (float) q[k];
 }
 
-static void add_sun(garden *g)
+// Nothing shines from the sky, which therefore is a night's. A moon as bright as this one is an
+// exposure that is long.
+static void add_moon(garden *g)
 {
-    const int node = kit_node(&g->k, "sun", -1, (place){ 0, 8, 0, 0 });
+    const int node = kit_node(&g->k, "moon", -1, (place){ 0, 8, 0, 0 });
     const kit_motion m = {
-        .node = node, .path = AG_PATH_ROTATION, .keys = 65, .seconds = day, .curve = sun_turn
+        .node = node, .path = AG_PATH_ROTATION, .keys = 65, .seconds = day, .curve = moon_turn
     };
-    const ag_light sun = {
-        .name = "sun", .kind = AG_LIGHT_DIRECTIONAL, .intensity = { 5.6f, 5.0f, 4.0f }, // W/m^2
+    const ag_light moon = {
+        .name = "moon", .kind = AG_LIGHT_DIRECTIONAL, .intensity = { 4.0f, 4.9f, 6.4f }, // W/m^2
     };
     kit_move(&g->k, &m);
-    ag_builder_light(g->k.builder, node, &sun);
+    ag_builder_light(g->k.builder, node, &moon);
 }
 
 void garden_add_light(garden *g)
 {
-    add_sun(g);
+    add_moon(g);
     add_lantern(g);
 }

@@ -48,6 +48,6 @@ void garden_add_hedges(garden *g);  // hedges and ivy
 void garden_add_trees(garden *g);   // with the swing
 void garden_add_flowers(garden *g); // grass, ferns, flowers, reeds
 void garden_add_pavilion(garden *g);
-void garden_add_light(garden *g); // the sun and the pavilion's lantern
+void garden_add_light(garden *g); // the moon and the pavilion's lantern
 
 #endif // GARDEN_PRIV_H
