@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the living room and the factory promise.
-#include "test_mesh.h"
+#include "test_builtin.h"
 
 #include <pass/surface.h>
-#include <scenes.h>
 
 #include <math.h>
 #include <setjmp.h>
@@ -12,13 +11,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-static ag_scene *open_scene(const char *name)
-{
-    ag_scene *scene = NULL;
-    assert_int_equal(scenes_open(NULL, name, &scene), FG_OK);
-    return scene;
-}
 
 static int material_named(const ag_scene *s, const char *name)
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the maze and the garden promise beyond what all built-in scenes do.
-#include "test_mesh.h"
-
-#include <scenes.h>
+#include "test_builtin.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -11,13 +9,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-static ag_scene *open_scene(const char *name)
-{
-    ag_scene *scene = NULL;
-    assert_int_equal(scenes_open(NULL, name, &scene), FG_OK);
-    return scene;
-}
 
 // ---- maze ----------------------------------------------------------------------------
 
