@@ -264,7 +264,7 @@ static fg_status draw(const fg_log *log, const char *folder, cJSON *doc, const c
                       int truth)
 {
     char name[64], stem[128];
-    plot p;
+    plot p = { 0 };
     const char *what = truth < 0 ? "passes" : truth_names[truth];
     report_file_name(name, sizeof name, json_text(scene, "name"));
     snprintf(stem, sizeof stem, "plots/%s_%s", name, what);

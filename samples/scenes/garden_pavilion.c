@@ -110,10 +110,7 @@ static void moon_turn(const void *user, float t, float out[4])
                  height = 0.72 + 0.08 * (double) cosf(tau * t);
     const double direction[3] = { sin(around) * cos(height), -sin(height),
                                   -cos(around) * cos(height) };
-    double q[4];
-    kit_aim(direction, q);
-    for (int k = 0; k < 4; ++k)
-        out[k] = (float) q[k];
+    kit_aim_curve(direction, out);
 }
 
 // Nothing shines from the sky, which therefore is a night's. A moon as bright as this one is an

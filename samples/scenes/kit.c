@@ -122,6 +122,14 @@ void kit_aim(const double direction[3], double rotation[4])
     rotation[3] = cos(yaw) * cos(pitch);
 }
 
+void kit_aim_curve(const double direction[3], float out[4])
+{
+    double q[4];
+    kit_aim(direction, q);
+    for (int k = 0; k < 4; ++k)
+        out[k] = (float) q[k];
+}
+
 void kit_turn(int axis, double angle, double rotation[4])
 {
     rotation[0] = rotation[1] = rotation[2] = 0.0;

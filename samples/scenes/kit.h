@@ -97,6 +97,8 @@ void kit_walk(kit *k, const kit_walk_desc *desc);
 // The quaternion (xyzw) that turns -Z into `direction` and keeps +X horizontal; `direction` is
 // not vertical.
 void kit_aim(const double direction[3], double rotation[4]);
+// The same for the curve of a kit_motion.
+void kit_aim_curve(const double direction[3], float out[4]);
 
 // The quaternion of a turn of `angle` radians around axis 0, 1 or 2.
 void kit_turn(int axis, double angle, double rotation[4]);

@@ -148,14 +148,12 @@ static void walk_eye(const void *user, float t, float out[4])
 
 static void walk_aim(const void *user, float t, float out[4])
 {
-    double eye[3], target[3], direction[3], q[4];
+    double eye[3], target[3], direction[3];
     follow(user, t, false, eye);
     follow(user, t, true, target);
     for (int k = 0; k < 3; ++k)
         direction[k] = target[k] - eye[k];
-    kit_aim(direction, q);
-    for (int k = 0; k < 4; ++k)
-        out[k] = (float) q[k];
+    kit_aim_curve(direction, out);
 }
 
 void kit_walk(kit *k, const kit_walk_desc *desc)

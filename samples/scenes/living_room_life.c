@@ -147,12 +147,10 @@ static void sun_moves(const void *user, float t, float out[4])
 static void sun_aims(const void *user, float t, float out[4])
 {
     float at[4] = { 0 };
-    double q[4];
     sun_moves(user, t, at);
-    kit_aim((const double[3]){ 3.2 - (double) at[0], 1.3 - (double) at[1], -0.1 - (double) at[2] },
-            q);
-    for (int k = 0; k < 4; ++k)
-        out[k] = (float) q[k];
+    kit_aim_curve(
+        (const double[3]){ 3.2 - (double) at[0], 1.3 - (double) at[1], -0.1 - (double) at[2] },
+        out);
 }
 
 static void add_sun(living_room *r)
