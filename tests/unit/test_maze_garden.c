@@ -81,6 +81,19 @@ static void maze_has_no_leaks(void **state)
     ag_scene_destroy(s);
 }
 
+// Metres to what is nearest in twelve directions at the same height, 1 at the most.
+static double nearest_around(const ag_scene *s, const double at[3])
+{
+    const soup w = soup_of(s);
+    double nearest = 1.0;
+    for (int k = 0; k < 12; ++k) {
+        const double way[3] = { cos(0.5236 * k), 0, sin(0.5236 * k) };
+        nearest = soup_nearest(&w, at, way, nearest);
+    }
+    free(w.corners);
+    return nearest;
+}
+
 // The path goes through a door that swings: as it is at each moment, nothing is near the camera.
 static void maze_camera_never_meets_the_door(void **state)
 {
@@ -89,13 +102,8 @@ static void maze_camera_never_meets_the_door(void **state)
     const int path = ag_scene_find_camera(s, "path");
     for (int i = 0; i < 64; ++i) {
         ag_scene_set_time(s, 9.0 + 0.25 * i); // into the hall, through the door and back
-        const soup w = soup_of(s);
-        for (int k = 0; k < 12; ++k) {
-            const double way[3] = { cos(0.5236 * k), 0, sin(0.5236 * k) };
-            if (soup_nearest(&w, s->cameras[path].world + 12, way, 1.0) < 0.15)
-                fail_msg("maze: the camera is in something at %g s", 9.0 + 0.25 * i);
-        }
-        free(w.corners);
+        if (nearest_around(s, s->cameras[path].world + 12) < 0.15)
+            fail_msg("maze: the camera is in something at %g s", 9.0 + 0.25 * i);
     }
     ag_scene_destroy(s);
 }
