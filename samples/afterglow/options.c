@@ -163,7 +163,7 @@ static const option table[] = {
     { OPT_SET, "--set", NULL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
       "a parameter of the plugin; with several plugins of each that has it, or NAME.KEY=VALUE" },
     { OPT_SIZE, "--size", NULL, "WxH", "two whole numbers from 1 to 32768, as in 640x480",
-      "pixels (512x512; report: its budget's)" },
+      "pixels (512x512; view: 1280x720; report: its budget's)" },
     { OPT_FRAME, "--frame", NULL, "N", "a whole number from 0 to 1000000",
       "run frames 0 to N of the animation, 1/60 s apart, and take the last (0)" },
     { OPT_FRAMES, "--frames", NULL, "N", "a whole number from 1 to 1000000", "how many frames" },

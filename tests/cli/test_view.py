@@ -140,6 +140,19 @@ def a_picture_is_that_of_render(folder):
             assert worst <= 1, (layer, worst)
 
 
+def looks_around(viewer):
+    """Drags with the right button. One press among very many was seen to be lost on its way: then again."""
+    for last in [False, False, True]:
+        viewer.do('mousemove', 500, 300, 'mousedown', 3)
+        time.sleep(0.2)
+        viewer.do('mousemove', 520, 330, 'mouseup', 3)
+        try:
+            return viewer.wait('camera free', 60 if last else 10)
+        except AssertionError:
+            if last:
+                raise
+
+
 def it_is_driven_by_keys_and_mouse(folder):
     plugins = sorted(p['name'] for p in json.loads(succeeds('plugins', '--json').out))
     with Screen() as screen, Viewer(screen, folder, 'cornell', '--size', '600x560', '--render-scale', 4) as viewer:
@@ -188,10 +201,7 @@ def it_is_driven_by_keys_and_mouse(folder):
         viewer.key('l', 'layer radiance\n')
         viewer.key('k', 'layer final\n')
         viewer.do('key', 'equal')
-        viewer.do('mousemove', 500, 300, 'mousedown', 3)
-        time.sleep(0.2)
-        viewer.do('mousemove', 520, 330, 'mouseup', 3)
-        viewer.wait('camera free')
+        looks_around(viewer)
         moved = shot_of(viewer, 600, 560)
         assert crop(moved, 400, 0, 600, 500) != crop(split, 400, 0, 600, 500)
         other = viewer.saved()
