@@ -115,6 +115,17 @@ fg_status file_write(const fg_log *log, const char *path, const void *data, size
     return file_end(log, &f, true);
 }
 
+fg_status file_write_text(const fg_log *log, const char *path, char *text)
+{
+    fg_status status = FG_ERR_MEMORY;
+    if (text)
+        status = file_write(log, path, text, strlen(text));
+    else
+        fg_logf(log, FG_LOG_ERROR, "%s: out of memory", path);
+    free(text);
+    return status;
+}
+
 static fg_status refuse(const fg_log *log, const char *path, const char *why)
 {
     fg_logf(log, FG_LOG_ERROR, "%.600s: cannot read: %s", path, why);

@@ -33,6 +33,9 @@ FG_NODISCARD fg_status file_check(const fg_log *log, const char *path);
 
 FG_NODISCARD fg_status file_write(const fg_log *log, const char *path, const void *data,
                                   size_t size);
+// A text made by malloc(), which is freed; NULL, where there was no memory for it, is
+// FG_ERR_MEMORY.
+FG_NODISCARD fg_status file_write_text(const fg_log *log, const char *path, char *text);
 
 // The whole of a regular file of at most `max` bytes with a zero byte appended; free() it.
 // FG_ERR_INPUT names path and reason.

@@ -272,12 +272,5 @@ cJSON *record_create(const host *h, renderer *r, const setting *s, const timing 
 
 fg_status record_write(const fg_log *log, const cJSON *json, const char *path)
 {
-    char *text = cJSON_Print(json);
-    if (!text) {
-        fg_logf(log, FG_LOG_ERROR, "%s: out of memory", path);
-        return FG_ERR_MEMORY;
-    }
-    const fg_status status = file_write(log, path, text, strlen(text));
-    free(text);
-    return status;
+    return file_write_text(log, path, cJSON_Print(json));
 }

@@ -278,14 +278,7 @@ fg_status view_set_values(const fg_log *log, const char *name, const cJSON *para
 
 fg_status view_set_save(const fg_log *log, const char *path, const view_set *s)
 {
-    char *text = view_set_print(s);
-    if (!text) {
-        fg_logf(log, FG_LOG_ERROR, "%s: out of memory", path);
-        return FG_ERR_MEMORY;
-    }
-    const fg_status status = file_write(log, path, text, strlen(text));
-    free(text);
-    return status;
+    return file_write_text(log, path, view_set_print(s));
 }
 
 fg_status view_set_load(const fg_log *log, const char *path, view_set *out)
