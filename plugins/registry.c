@@ -202,6 +202,13 @@ static void sort(entries *all)
 
 // ---- life ---------------------------------------------------------------------------
 
+static void free_dirs(char **dirs)
+{
+    for (int i = 0; dirs && dirs[i]; ++i)
+        free(dirs[i]);
+    free(dirs);
+}
+
 static char **copy_dirs(const char *const *dirs)
 {
     size_t n = 0;
@@ -212,9 +219,7 @@ static char **copy_dirs(const char *const *dirs)
         copy[i] = strdup(dirs[i]);
         if (copy[i])
             continue;
-        while (i > 0)
-            free(copy[--i]);
-        free(copy);
+        free_dirs(copy);
         return NULL;
     }
     return copy;
@@ -228,7 +233,7 @@ fg_status gi_registry_create(const gi_registry_desc *desc, gi_registry **out)
     if (!r || !dirs) {
         fg_logf(desc->log, FG_LOG_ERROR, "plugins: out of memory");
         free(r);
-        free(dirs);
+        free_dirs(dirs);
         return FG_ERR_MEMORY;
     }
     *r = (gi_registry){
@@ -252,9 +257,7 @@ void gi_registry_destroy(gi_registry *r)
     for (int i = r->retired_count; i > 0; --i)
         dlclose(r->retired[i - 1]);
     free(r->retired);
-    for (int i = 0; r->dirs[i]; ++i)
-        free(r->dirs[i]);
-    free(r->dirs);
+    free_dirs(r->dirs);
     free(r);
 }
 

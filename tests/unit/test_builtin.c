@@ -1,37 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "test_builtin.h"
 
-#include <scenes.h>
+#include "scene_log.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-
-#include <cmocka.h>
-
-typedef struct record {
-    int errors, others;
-    char last[1024];
-} record;
-
-static void remember(void *user, fg_log_level level, const char *msg)
-{
-    record *r = user;
-    r->errors += level == FG_LOG_ERROR;
-    r->others += level != FG_LOG_ERROR;
-    snprintf(r->last, sizeof r->last, "%s", msg);
-}
+#include <scenes.h>
 
 ag_scene *open_scene(const char *name)
 {
-    record r = { 0 };
-    const fg_log log = { .fn = remember, .user = &r, .level = FG_LOG_INFO };
+    lines said;
+    const fg_log log = log_to(&said);
     ag_scene *scene = NULL;
     const fg_status status = scenes_open(&log, name, &scene);
     if (status != FG_OK)
-        fail_msg("%s: %s", name, r.last);
-    assert_int_equal(r.errors + r.others, 0);
+        fail_msg("%s: %s", name, said.error);
+    assert_int_equal(said.errors + said.warnings + said.infos, 0);
     return scene;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "image.h"
+#include "last_log.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,15 +17,6 @@
 #include <unistd.h>
 
 static char folder[] = "afterglow-image-XXXXXX";
-static char message[1024];
-
-static void remember(void *user, fg_log_level level, const char *msg)
-{
-    (void) user;
-    (void) level;
-    snprintf(message, sizeof message, "%s", msg);
-}
-
 static const fg_log logger = { .fn = remember, .level = FG_LOG_WARN };
 static const char *const extensions[] = { "png", "exr", "pfm" };
 
@@ -52,7 +44,7 @@ static int make_folder(void **state)
 {
     (void) state;
     strcpy(folder, "afterglow-image-XXXXXX");
-    message[0] = 0;
+    last[0] = 0;
     return mkdtemp(folder) ? 0 : -1;
 }
 
@@ -114,12 +106,12 @@ static void near_by(float a, float b, float tolerance)
 static void expect_refused(const char *path, const char *reason)
 {
     image img;
-    message[0] = 0;
+    last[0] = 0;
     assert_int_equal(image_read(&logger, path, &img), FG_ERR_INPUT);
     assert_null(img.rgb);
-    assert_non_null(strstr(message, path));
-    if (!strstr(message, reason))
-        fail_msg("\"%s\" does not say \"%s\"", message, reason);
+    assert_non_null(strstr(last, path));
+    if (!strstr(last, reason))
+        fail_msg("\"%s\" does not say \"%s\"", last, reason);
 }
 
 // The plain ramp's second chunk compresses to its own size, which readers take for raw rows.
@@ -456,7 +448,7 @@ static void only_known_names_are_writable(void **state)
     assert_false(image_writable("a.jpg") || image_writable("png") || image_writable("a.png/b") ||
                  image_writable(""));
     assert_int_equal(image_write(&logger, in_folder("a.jpg"), &img, IMAGE_LIGHT), FG_ERR_INVALID);
-    assert_non_null(strstr(message, "must end in .png, .exr or .pfm"));
+    assert_non_null(strstr(last, "must end in .png, .exr or .pfm"));
     assert_int_equal(files_in_folder(), 0);
     image_finish(&img);
 }
@@ -469,12 +461,12 @@ static void a_failed_write_leaves_what_was_there(void **state)
         char name[32];
         snprintf(name, sizeof name, "none/a.%s", extensions[e]);
         assert_int_equal(image_write(&logger, in_folder(name), &img, IMAGE_LIGHT), FG_ERR_IO);
-        assert_non_null(strstr(message, "a."));
-        assert_non_null(strstr(message, "No such file or directory"));
+        assert_non_null(strstr(last, "a."));
+        assert_non_null(strstr(last, "No such file or directory"));
         snprintf(name, sizeof name, "dir%d.%s", e, extensions[e]);
         assert_int_equal(mkdir(in_folder(name), 0700), 0);
         assert_int_equal(image_write(&logger, in_folder(name), &img, IMAGE_LIGHT), FG_ERR_IO);
-        assert_non_null(strstr(message, "Is a directory"));
+        assert_non_null(strstr(last, "Is a directory"));
         assert_int_equal(files_in_folder(), e + 1);
     }
     image_finish(&img);
@@ -499,7 +491,7 @@ static void a_full_disk_leaves_the_old_file(void **state)
         const fg_status status = image_write(&logger, in_folder(name), &img, IMAGE_LIGHT);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
         assert_int_equal(status, FG_ERR_IO);
-        assert_non_null(strstr(message, "cannot write: "));
+        assert_non_null(strstr(last, "cannot write: "));
         assert_int_equal(files_in_folder(), e + 1);
         unsigned char *bytes = load(in_folder(name), &size);
         assert_int_equal(size, 3);
@@ -513,7 +505,7 @@ static void sizes_below_one_are_invalid(void **state)
     (void) state;
     image img;
     assert_int_equal(image_create(&logger, 0, 4, &img), FG_ERR_INVALID);
-    assert_string_equal(message, "image: size is 0 x 4, must be at least 1 x 1");
+    assert_string_equal(last, "image: size is 0 x 4, must be at least 1 x 1");
     assert_int_equal(image_create(&logger, 4, -1, &img), FG_ERR_INVALID);
     assert_null(img.rgb);
     assert_int_equal(image_write(&logger, in_folder("a.png"), &img, IMAGE_LIGHT), FG_ERR_INVALID);

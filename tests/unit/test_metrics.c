@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "last_log.h"
 #include "metrics.h"
 
 #include <setjmp.h>
@@ -8,15 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static char message[1024];
-
-static void remember(void *user, fg_log_level level, const char *msg)
-{
-    (void) user;
-    (void) level;
-    snprintf(message, sizeof message, "%s", msg);
-}
 
 static const fg_log logger = { .fn = remember, .level = FG_LOG_WARN };
 
@@ -167,7 +159,7 @@ static void different_sizes_are_refused(void **state)
     metrics m;
     image a = picture(4, 2), b = picture(2, 4), map;
     assert_int_equal(metrics_compare(&logger, &a, &b, &m), FG_ERR_INVALID);
-    assert_string_equal(message, "compare: sizes differ: 4 x 2 and 2 x 4");
+    assert_string_equal(last, "compare: sizes differ: 4 x 2 and 2 x 4");
     assert_int_equal(metrics_error_map(&logger, &a, &b, 1, &map), FG_ERR_INVALID);
     assert_null(map.rgb);
     image_finish(&a);
@@ -189,7 +181,7 @@ static void the_error_map_shows_sign_size_and_holes(void **state)
     const double bad[] = { 0, -1, nan(""), HUGE_VAL };
     for (int i = 0; i < FG_COUNT(bad); ++i) {
         assert_int_equal(metrics_error_map(&logger, &a, &b, bad[i], &map), FG_ERR_INVALID);
-        assert_non_null(strstr(message, "must be above 0"));
+        assert_non_null(strstr(last, "must be above 0"));
     }
     image_finish(&a);
     image_finish(&b);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "../shapes.h"
+#include "last_log.h"
 
 #include <pass/rays.h>
 
@@ -11,15 +12,6 @@
 #include <stdatomic.h>
 #include <stdio.h>
 
-static char message[1024];
-
-static void remember(void *user, fg_log_level level, const char *msg)
-{
-    (void) user;
-    (void) level;
-    snprintf(message, sizeof message, "%s", msg);
-}
-
 static const fg_log logger = { .fn = remember, .level = FG_LOG_ERROR };
 static const float far_away = 1e30f;
 
@@ -27,7 +19,7 @@ static ag_rays *rays_of(const ag_scene *scene)
 {
     ag_rays *rays;
     if (!scene)
-        fail_msg("%s", message);
+        fail_msg("%s", last);
     const ag_rays_desc desc = { .log = &logger, .scene = scene, .threads = 1 };
     assert_int_equal(ag_rays_create(&desc, &rays), FG_OK);
     return rays;
@@ -528,7 +520,7 @@ static void mistakes_are_refused(void **state)
     ag_rays *rays;
     assert_int_equal(ag_rays_create(&(ag_rays_desc){ .log = &logger }, &rays), FG_ERR_INVALID);
     assert_null(rays);
-    assert_string_equal(message, "rays: there is no scene");
+    assert_string_equal(last, "rays: there is no scene");
 }
 
 int main(void)

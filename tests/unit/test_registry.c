@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "last_log.h"
+
 #include <gi/registry.h>
 
 #include <setjmp.h>
@@ -10,15 +12,6 @@
 #include <cmocka.h>
 
 // MODULES is the folder of the MODULE_COUNT modules that modules/module.c makes.
-static char last[1024];
-
-static void remember(void *user, fg_log_level level, const char *msg)
-{
-    (void) user;
-    (void) level;
-    snprintf(last, sizeof last, "%s", msg);
-}
-
 static const fg_log log_last = { .fn = remember, .level = FG_LOG_ERROR };
 
 static gi_registry *modules(void)

@@ -2,6 +2,8 @@
 // Modules whose files change while they are in use. MODULES is the folder of gi_hot1.so,
 // gi_hot2.so,
 // ..., which modules/hot.c makes; they are copied to gi_hot.so in a folder of the test's own.
+#include "last_log.h"
+
 #include <gi/registry.h>
 
 #include <setjmp.h>
@@ -16,17 +18,6 @@
 #include <unistd.h>
 
 #include <cmocka.h>
-
-static char last[1024];
-static int lines;
-
-static void remember(void *user, fg_log_level level, const char *msg)
-{
-    (void) user;
-    (void) level;
-    ++lines;
-    snprintf(last, sizeof last, "%s", msg);
-}
 
 static const fg_log log_last = { .fn = remember, .level = FG_LOG_ERROR };
 

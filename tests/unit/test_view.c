@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the viewer is made of beside its window: camera, clock, messages, parameter sets.
+#include "last_log.h"
 #include "view_camera.h"
 #include "view_keys.h"
 #include "view_params.h"
@@ -232,15 +233,6 @@ static const gi_param params[] = {
     { .name = NULL },
 };
 static const gi_plugin plugin = { .abi = GI_PLUGIN_ABI, .name = "toy", .params = params };
-
-static char last[1024];
-
-static void remember(void *user, fg_log_level level, const char *msg)
-{
-    (void) user;
-    (void) level;
-    snprintf(last, sizeof last, "%s", msg);
-}
 
 static const fg_log log_last = { .fn = remember, .level = FG_LOG_ERROR };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One version of a plugin that is loaded again, by HOT_VERSION and HOT_KIND.
-#include <gi/plugin.h>
+#include "stub.h"
 
 #define SOUND 0
 #define OTHER_ABI 1
@@ -15,22 +15,6 @@ FG_API int nobody_defines_this(void);
 
 // Large enough to fill pages that are read from the file when they are first touched.
 static const int table[64 * 1024] = { [64 * 1024 - 1] = HOT_VERSION };
-
-static fg_status create(const gi_env *env, const gi_value *values, void **self)
-{
-    (void) env;
-    (void) values;
-    *self = NULL;
-    return FG_ERR_UNSUPPORTED;
-}
-
-static void declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
-{
-    (void) self;
-    (void) g;
-    (void) in;
-    (void) out;
-}
 
 // "version" is the module's, "calls" how often this state was asked.
 static int counters(void *self, gi_counter *out, int max)
@@ -47,11 +31,6 @@ static int counters(void *self, gi_counter *out, int max)
     out[1].value = hot_unique_calls();
 #endif
     return 2;
-}
-
-static void destroy(void *self)
-{
-    (void) self;
 }
 
 static const gi_param params[] = {

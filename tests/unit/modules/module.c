@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One broken or sound plugin module, by MODULE_KIND.
-#include <gi/plugin.h>
+#include "stub.h"
 
 #include <math.h>
 
@@ -15,27 +15,6 @@
 #define MANY_LAYERS 8
 #define DOTTED_LAYER 9
 #define MUTE_LAYER 10
-
-static fg_status create(const gi_env *env, const gi_value *values, void **self)
-{
-    (void) env;
-    (void) values;
-    *self = NULL;
-    return FG_ERR_UNSUPPORTED;
-}
-
-static void declare(void *self, fg_graph *g, const gi_inputs *in, gi_outputs *out)
-{
-    (void) self;
-    (void) g;
-    (void) in;
-    (void) out;
-}
-
-static void destroy(void *self)
-{
-    (void) self;
-}
 
 static const char *const colours[] = { "red", "green", "blue", NULL };
 static const gi_param params[] = {
